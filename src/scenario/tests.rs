@@ -11,7 +11,7 @@ use crate::scene::{LoopClosed, Metric, Outcome, Stalled};
 use crate::solid::Solid;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
-use vibrissa_runtime::rig::{Hinge, Platform, Rig, Sensing, Shaft, Whisker, YawController};
+use vibrissa_runtime::rig::{Estimation, Hinge, Platform, Rig, Sensing, Shaft, Whisker, YawController};
 
 fn read(text: &str) -> Scene {
     let source = Source::new("scenario.yaml", text);
@@ -123,7 +123,8 @@ fn every_key_of_a_rig_can_be_set() {
      contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm, object_height: 8 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
      surface_roughness: 0.3 mm,
-     angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true, force_noise: 5 mN}";
+     angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true, force_noise: 5 mN,
+     estimation: {lost_readings: false, offset: false, noise: false, delay: false, pose_noise: false}}";
     let expected = Rig {
         platform: Platform {
             tail_width: 0.01,
@@ -167,6 +168,7 @@ fn every_key_of_a_rig_can_be_set() {
             angle_resolution: 4e-3,
             forces: true,
             force_noise: 5e-3,
+            estimation: Estimation::OFF,
         },
     };
     let physics = Physics {

@@ -7,7 +7,7 @@ use super::node::Entry;
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::physics::Physics;
-use vibrissa_runtime::rig::{Rig, Sensing};
+use vibrissa_runtime::rig::{Estimation, Rig, Sensing};
 use vibrissa_runtime::units::{Dimension, format_si};
 
 pub(super) const STEP: Key = Key::new("step", Dimension::TIME, (1e-6, 1.0), "3.33 ms");
@@ -52,6 +52,29 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
         sensing.forces = forces;
     }
     fields.set(reader, &FORCE_NOISE, &mut sensing.force_noise);
+    if let Some(entry) = fields.entry("estimation") {
+        read_estimation(reader, entry, &mut sensing.estimation);
+    }
+    fields.finish(reader);
+}
+
+/// Reads the switches of the estimates of perception.
+fn read_estimation(reader: &mut Reader<'_>, entry: &Entry, estimation: &mut Estimation) {
+    let Some(mut fields) = Fields::of(reader, &entry.value, "the estimation", entry.key.span) else { return };
+    let Estimation { lost_readings, offset, noise, delay, pose_noise } = estimation;
+    for (name, switch) in [
+        ("lost_readings", lost_readings),
+        ("offset", offset),
+        ("noise", noise),
+        ("delay", delay),
+        ("pose_noise", pose_noise),
+    ] {
+        if let Some(entry) = fields.entry(name)
+            && let Some(flag) = reader.flag(&entry.value)
+        {
+            *switch = flag;
+        }
+    }
     fields.finish(reader);
 }
 

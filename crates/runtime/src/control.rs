@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::machine::{Machine, OnlySimulated, Program, Tick};
-use crate::motion::Steering;
+use crate::motion::{ServoLead, Steering};
 use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
 use crate::signal::{Command, Sample};
@@ -28,6 +28,7 @@ pub struct Control {
     perception: Perception,
     machine: Machine,
     steering: Steering,
+    servo_lead: ServoLead,
 }
 
 impl Control {
@@ -51,6 +52,7 @@ impl Control {
             perception: Perception::new(rig, &whiskers, &program.contact_estimators)?
                 .with_contours(program.keypoints, &program.contours),
             steering: Steering::new(rig, &whiskers),
+            servo_lead: ServoLead::new(rig),
             machine: Machine::new(program),
         })
     }
@@ -61,7 +63,8 @@ impl Control {
     pub fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
         self.perception.update(samples);
         let tick = self.machine.tick(&mut self.perception);
-        let command = self.steering.command(&tick.action, self.perception.pose());
+        let command = self.steering.command(&tick.action, self.perception.pose_at_effect());
+        let command = self.servo_lead.next(command, self.perception.servo());
         self.perception.command(command);
         (command, tick)
     }

@@ -2,7 +2,9 @@
 
 mod pi_controller;
 mod pose_hold;
+mod servo_lead;
 mod steering;
 
 pub use pi_controller::PiController;
+pub use servo_lead::ServoLead;
 pub use steering::Steering;

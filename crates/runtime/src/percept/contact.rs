@@ -1,6 +1,7 @@
 //! The estimated contact of a whisker.
 
-use crate::geometry::{Matrix2, Point2, Pose, Vector2, rotate};
+use super::pose_noise::PoseDeviation;
+use crate::geometry::{Matrix2, Point2, Pose, Vector2, perpendicular, rotate};
 use crate::math;
 
 /// The contact of a whisker, as estimated by a contact estimator.
@@ -41,6 +42,16 @@ impl Contact {
             is_recordable: true,
             contact_length: length,
         }
+    }
+
+    /// Adds errors of the platform's pose `body` to the covariance and to the deviation for the record. They do not
+    /// decrease while a tip slides, so `deviation` is without them.
+    pub(super) fn add_pose_errors(&mut self, body: Pose, errors: PoseDeviation) {
+        let swing = errors.heading * perpendicular(self.point_world - body.position);
+        let added = Matrix2::identity() * math::square(errors.position) + swing * swing.transpose();
+        self.covariance_world += added;
+        let along_any = (math::square(errors.position) + swing.norm_squared()).sqrt();
+        self.recorded_deviation = math::hypot(self.recorded_deviation, along_any);
     }
 }
 

@@ -6,6 +6,7 @@ use crate::geometry::{Pose, Vector2};
 use crate::signal::Reading;
 
 use super::contact::Contact;
+use super::pose_delay::Misfit;
 
 /// An estimator of the contact position of a whisker from its readings and the poses of its base.
 ///
@@ -16,8 +17,18 @@ pub trait ContactEstimator: Debug + Send + Sync + Boxed {
     /// without memory, does nothing.
     fn take(&mut self, _reading: &Reading, _base: Pose) {}
 
+    /// The misfit of the newest reading with the contact that was expected. `None` without an expectation, which is the
+    /// default.
+    fn misfit(&self) -> Option<Misfit> {
+        None
+    }
+
     /// Forgets earlier readings at a gap. The default does nothing.
     fn interrupt(&mut self) {}
+
+    /// Sets the standard deviation (rad) of the noise of a base angle in each reading. It is called when a whisker in
+    /// free air has another noise than the rig states. The default, for estimators without uncertainty, does nothing.
+    fn set_noise(&mut self, _noise: f64) {}
 
     /// Returns the current contact for the filtered base angle `base_angle` (rad) and the pose `base` of the base, or
     /// `None` if it cannot be estimated.

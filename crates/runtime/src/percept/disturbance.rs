@@ -1,11 +1,11 @@
 //! Detection of a blocked body.
 
-use nalgebra::Vector3;
-
 use crate::geometry::{Point2, Pose, perpendicular, turn_between};
 use crate::math;
 use crate::rig::Rig;
 use crate::signal::{Command, MAX_WHISKERS, Sample};
+
+use super::platform_motion::Motion;
 
 /// Time constant (s) of the averages of commanded and actual motions.
 const AVERAGED: f64 = 0.2;
@@ -50,9 +50,6 @@ pub(super) struct Disturbance {
     pushed: f64,
 }
 
-/// A motion of the body, or its speed: x and y of the centre of mass (m, world frame) and the rotation (rad).
-type Motion = Vector3<f64>;
-
 impl Disturbance {
     /// Creates the detection for the body of `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
@@ -87,8 +84,9 @@ impl Disturbance {
         self.command = command;
     }
 
-    /// Adds the samples of a tick that ends at `time` (s) with the body at `pose`, which may be unknown.
-    pub(super) fn update(&mut self, samples: &[Sample], time: f64, pose: Pose) {
+    /// Adds the samples of a tick that ends at `time` (s) with the body at `pose`, which may be unknown. `measured` is the
+    /// expected motion in this tick, if the platform is known to move in another way than the rig states.
+    pub(super) fn update(&mut self, samples: &[Sample], time: f64, pose: Pose, measured: Option<Motion>) {
         for sample in samples {
             for (base_angle, reading) in self.base_angles.iter_mut().zip(&sample.whiskers) {
                 if reading.base_angle.is_finite() {
@@ -98,7 +96,9 @@ impl Disturbance {
         }
         let period = time - std::mem::replace(&mut self.time, time);
         if period > 0.0 {
-            self.expect(period);
+            let stated = self.expect(period);
+            self.expected += measured.unwrap_or(stated);
+            self.elapsed += period;
         }
         if pose.is_finite() {
             let before = std::mem::replace(&mut self.pose, pose);
@@ -109,15 +109,15 @@ impl Disturbance {
         }
     }
 
-    /// Adds the expected motion of a servo during `period` (s).
-    fn expect(&mut self, period: f64) {
+    /// The expected motion of a servo during `period` (s).
+    fn expect(&mut self, period: f64) -> Motion {
         let aim = self.command.velocity_world.push(self.command.yaw_rate);
         let left = math::exp(-period / self.servo);
         // Equivalent time at the initial difference from the target speed.
         let behind = self.servo * (1.0 - left);
-        self.expected += self.speed * behind + aim * (period - behind);
+        let motion = self.speed * behind + aim * (period - behind);
         self.speed = self.speed * left + aim * (1.0 - left);
-        self.elapsed += period;
+        motion
     }
 
     /// Averages the missing part of the expected motion.

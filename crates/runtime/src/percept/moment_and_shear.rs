@@ -29,8 +29,6 @@ pub(super) struct MomentAndShear {
     shear: RecentLine,
     /// Standard deviations of the base angle (rad) and of the shear (N).
     deviations: Column<f64>,
-    /// Contact threshold (rad).
-    contact_threshold: f64,
     /// True if the newest sample has both readings.
     has_readings: bool,
     /// Shape at the newest contact, or the straight shaft. It is the initial guess for the next one.
@@ -52,25 +50,17 @@ impl MomentAndShear {
         let shaft = whisker.shaft.clone();
         let wanted_shear = WANTED_SHEAR * shaft.bending_stiffness() / math::square(shaft.length);
         let angle = BaseAngle::new(whisker, sensing);
-        let shear = RecentLine::new(sensing.sample_rate.recip(), 0.0, sensing.force_noise, wanted_shear);
+        let mut shear = RecentLine::new(sensing.sample_rate.recip());
+        shear.fit_to(0.0, sensing.force_noise, wanted_shear);
         let deviations =
             Column::new(angle.deviation, math::hypot(wanted_shear, sensing.force_noise * shear.noise_gain(0.0)));
-        Self {
-            near: elastica.straight(),
-            elastica,
-            shaft,
-            angle,
-            shear,
-            deviations,
-            contact_threshold: sensing.contact_threshold,
-            has_readings: false,
-        }
+        Self { near: elastica.straight(), elastica, shaft, angle, shear, deviations, has_readings: false }
     }
 
     /// The shape according to the newest readings.
     fn find(&self) -> Option<ShaftShape> {
         let (angle, is_calm) = self.angle.value();
-        let has_contact = self.has_readings && angle.abs() > self.contact_threshold && is_calm;
+        let has_contact = self.has_readings && angle.abs() > self.angle.contact_threshold && is_calm;
         if has_contact { self.elastica.locate(angle, self.shear.at(0.0).0, &self.near).ok() } else { None }
     }
 
@@ -109,6 +99,11 @@ impl ContactEstimator for MomentAndShear {
         self.angle.clear();
         self.shear.clear();
         self.has_readings = false;
+    }
+
+    fn set_noise(&mut self, noise: f64) {
+        self.angle.set_noise(noise);
+        self.deviations.x = self.angle.deviation;
     }
 
     fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {

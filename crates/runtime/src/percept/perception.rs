@@ -7,15 +7,19 @@ use crate::machine::{
     BodyScalar, ContactEstimatorKind, ContourVector, Keypoints, Mark, PositionContour, Senses, WhiskerScalar,
     WhiskerVector,
 };
+use crate::math;
 use crate::rig::{Rig, Whisker};
 use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::disturbance::Disturbance;
+use super::inertia::MeasuredAcceleration;
 use super::loop_watch::LoopWatch;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
+use super::motions::Motions;
+use super::offsets::Offsets;
 use super::one_channel::OneChannel;
 use super::recorded_contour::RecordedContour;
 use super::recursive::{self, Recursive};
@@ -23,7 +27,7 @@ use super::sliding::Sliding;
 use super::tip_curve::{TipCurve, TipCurveError};
 use super::tip_table::TipTable;
 use super::truth::Truth;
-use super::whisker::{PerceivedWhisker, base_angle_deviation};
+use super::whisker::PerceivedWhisker;
 
 use ContactEstimatorKind as Kind;
 
@@ -46,6 +50,15 @@ pub struct Perception {
     /// For each whisker, the detection of a closed loop from the tips that it recorded.
     loops: Vec<LoopWatch>,
     disturbance: Disturbance,
+    /// Offsets of the readings of all whiskers of the rig, if they are estimated.
+    offsets: Option<Offsets>,
+    acceleration: MeasuredAcceleration,
+    /// Delays and errors of poses and commands, if they are estimated.
+    motions: Option<Motions>,
+    /// Pose by the newest sample, or unknown.
+    measured: Pose,
+    /// Time constant of the servos (s) according to the rig.
+    servo: f64,
 }
 
 /// An error of constructing the perception of a rig.
@@ -135,9 +148,7 @@ impl Perception {
             };
             let curve = Arc::new(curve);
             let estimator: Box<dyn ContactEstimator> = match kind {
-                Kind::OneChannel | Kind::Polynomial => {
-                    Box::new(OneChannel::new(Arc::clone(&curve), base_angle_deviation(sensing), length))
-                }
+                Kind::OneChannel | Kind::Polynomial => Box::new(OneChannel::new(Arc::clone(&curve), sensing, length)),
                 Kind::Sliding => Box::new(Sliding::new(&whisker, sensing)),
                 Kind::MomentAndShear if sensing.forces => Box::new(MomentAndShear::new(&whisker, sensing)),
                 Kind::MomentAndShear => return Err(PerceptionError::NoForces { whisker: whisker.name }),
@@ -161,6 +172,11 @@ impl Perception {
             contours: Vec::new(),
             loops: vec![LoopWatch::default(); whiskers.len()],
             disturbance: Disturbance::new(rig),
+            motions: (sensing.estimation.delay || sensing.estimation.pose_noise).then(|| Motions::new(rig)),
+            acceleration: MeasuredAcceleration::new(),
+            measured: Pose::default(),
+            servo: rig.platform.servo,
+            offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
         })
     }
 
@@ -195,33 +211,69 @@ impl Perception {
             self.loops[index].update(self.time, tip_world, self.body.position);
         }
         for (whisker, _) in fitted(&mut self.whiskers, &self.in_sample) {
-            whisker.base_angle.begin();
+            whisker.begin();
         }
-        self.body = Pose::UNKNOWN;
+        let before = self.time;
+        if let Some(time) = samples.iter().map(|sample| sample.time).rfind(|time| time.is_finite()) {
+            self.time = time;
+        }
+        let period = self.time - before;
+        if let Some(motions) = &mut self.motions
+            && period > 0.0
+        {
+            motions.begin(period);
+        }
+        (self.body, self.measured) = (Pose::UNKNOWN, Pose::UNKNOWN);
         for sample in samples {
+            let ago = math::max(self.time - sample.time, 0.0);
+            let body = self.motions.as_ref().map_or(sample.body, |motions| motions.pose(sample, ago));
             for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
-                whisker.take(&sample.whiskers[index], sample.body);
-            }
-            if sample.time.is_finite() {
-                self.time = sample.time;
+                let offset = self.offsets.as_ref().map_or(0.0, |offsets| offsets.value(index));
+                let misfit = whisker.take(&sample.whiskers[index], offset, body);
+                if let Some((motions, misfit)) = self.motions.as_mut().zip(misfit) {
+                    motions.add(&misfit);
+                }
             }
             if sample.body.is_finite() {
-                self.body = sample.body;
+                (self.body, self.measured) = (body, sample.body);
             }
         }
+        let pose_deviation = self.motions.as_ref().map(Motions::pose_deviation).unwrap_or_default();
         for whisker in &mut self.whiskers {
-            whisker.update(self.body);
+            whisker.update(self.body, pose_deviation);
         }
         for contour in &mut self.contours {
             contour.begin();
         }
-        self.disturbance.update(samples, self.time, self.body);
+        self.update_offsets(period);
+        if let Some(motions) = &mut self.motions {
+            motions.end(self.measured);
+        }
+        let expected = self.motions.as_ref().and_then(|motions| motions.expected(period));
+        self.disturbance.update(samples, self.time, self.measured, expected);
+    }
+
+    /// Estimates the offsets after `period` (s).
+    fn update_offsets(&mut self, period: f64) {
+        let Some(offsets) = &mut self.offsets else { return };
+        if period > 0.0 {
+            offsets.predict(period);
+        }
+        let Some(acceleration) = self.acceleration.take(self.measured, period) else { return };
+        for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
+            if let Some([reading, bent, deviation]) = whisker.free_reading(&acceleration) {
+                offsets.measure(index, reading, bent, deviation);
+            }
+        }
     }
 
     /// Sets the command that holds until the next tick. The detection of a blocked body uses it. The default is to
     /// stand still.
     pub fn command(&mut self, command: Command) {
         self.disturbance.command(command);
+        if let Some(motions) = &mut self.motions {
+            motions.command(command);
+        }
     }
 
     /// The fitted whiskers: the index of each in the policy and in the rig.
@@ -239,6 +291,19 @@ impl Perception {
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.body
+    }
+
+    /// Pose at which the next command takes effect, or [`Pose::UNKNOWN`] in a tick without a pose. Without a measured
+    /// delay of commands it is [`pose`](Self::pose).
+    #[must_use]
+    pub fn pose_at_effect(&self) -> Pose {
+        self.motions.as_ref().map_or(self.body, |motions| motions.at_effect(self.measured))
+    }
+
+    /// Measured time constant (s) of the servos, or that of the rig.
+    #[must_use]
+    pub fn servo(&self) -> f64 {
+        self.motions.as_ref().and_then(Motions::servo).unwrap_or(self.servo)
     }
 
     /// Filtered base angle (rad) of a whisker, or NaN in a tick without a valid reading.

@@ -21,15 +21,22 @@ const LONGEST: usize = 30;
 const SHORTEST: usize = 3;
 
 impl RecentLine {
-    /// Creates a line over the fewest readings for which its value at `ahead` (s) after the newest has at most the
-    /// standard deviation `deviation`. At most thirty readings are used. `noise` is the standard deviation of a
-    /// reading.
-    pub(super) fn new(period: f64, ahead: f64, noise: f64, deviation: f64) -> Self {
-        let line = |window| Self { period, window, readings: [0.0; LONGEST], count: 0 };
-        (SHORTEST..LONGEST)
-            .map(line)
-            .find(|line| noise * line.noise_gain(ahead) <= deviation)
-            .unwrap_or_else(|| line(LONGEST))
+    /// Creates a line over the fewest readings, which are `period` (s) apart.
+    pub(super) fn new(period: f64) -> Self {
+        Self { period, window: SHORTEST, readings: [0.0; LONGEST], count: 0 }
+    }
+
+    /// Fits the line to the fewest readings for which its value at `ahead` (s) after the newest has at most the standard
+    /// deviation `deviation`. At most thirty readings are used. `noise` is the standard deviation of a reading.
+    pub(super) fn fit_to(&mut self, ahead: f64, noise: f64, deviation: f64) {
+        let before = self.window;
+        self.window = SHORTEST;
+        while self.window < LONGEST && noise * self.noise_gain(ahead) > deviation {
+            self.window += 1;
+        }
+        // Readings before the former window are unknown.
+        let oldest = self.readings[LONGEST - before];
+        self.readings[..LONGEST - before].fill(oldest);
     }
 
     /// Ratio of the standard deviations of the line's value, at `ahead` (s) after the newest reading, and of a reading.
@@ -37,6 +44,11 @@ impl RecentLine {
         let window = self.window as f64;
         let from_middle = ahead / self.period + 0.5 * (window - 1.0);
         (1.0 / window + math::square(from_middle) / self.moment()).sqrt()
+    }
+
+    /// Ratio of the standard deviations of the line's slope (1/s) and of a reading.
+    pub(super) fn slope_gain(&self) -> f64 {
+        self.moment().sqrt().recip() / self.period
     }
 
     /// Sum of the squared distances, in periods, of the readings from their middle.

@@ -31,8 +31,6 @@ pub(super) struct Recursive {
     angle: BaseAngle,
     /// Standard deviation of the base angle (rad), including the residual of the polynomial.
     angle_deviation: f64,
-    /// Contact threshold (rad).
-    contact_threshold: f64,
     /// Length of the shaft (m).
     length: f64,
     /// The tip, during a contact.
@@ -84,7 +82,6 @@ impl Recursive {
             surface,
             curve,
             angle,
-            contact_threshold: sensing.contact_threshold,
             length: whisker.shaft.length,
             tip: None,
             base_before: None,
@@ -121,7 +118,7 @@ impl ContactEstimator for Recursive {
         });
         self.base_before = Some(base);
         self.tip = match self.tip {
-            _ if base_angle < self.contact_threshold => None,
+            _ if base_angle < self.angle.contact_threshold => None,
             Some(last) if last.bend_sign * bend_sign > 0.0 => self.advance(&last, base_angle, path),
             _ => self.first(bend_sign, base_angle),
         };
@@ -131,6 +128,11 @@ impl ContactEstimator for Recursive {
         self.angle.clear();
         self.tip = None;
         self.base_before = None;
+    }
+
+    fn set_noise(&mut self, noise: f64) {
+        self.angle.set_noise(noise);
+        self.angle_deviation = math::hypot(self.angle.deviation, self.surface.deviation);
     }
 
     fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {

@@ -106,6 +106,11 @@ impl ShaftRest {
         }
     }
 
+    /// Sets the standard deviation (rad) of a base angle.
+    pub(super) fn set_deviation(&mut self, angle_deviation: f64) {
+        self.angle_deviation = angle_deviation;
+    }
+
     /// Possible error of the tip (m), because the shaft may be in contact instead.
     pub(super) fn possible_error(&self) -> f64 {
         math::max(self.possible_error, self.offset)

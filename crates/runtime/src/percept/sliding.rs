@@ -13,6 +13,7 @@ use crate::signal::Reading;
 use super::base_angle::BaseAngle;
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
+use super::pose_delay::Misfit;
 use super::shaft_rest::ShaftRest;
 use super::sliding_contact::{SHAFT_FIRST, SlidingContact};
 use super::tip_bias::TipBias;
@@ -46,8 +47,6 @@ pub(super) struct Sliding {
     friction_angle: f64,
     /// Equilibrium base angle.
     angle: BaseAngle,
-    /// Contact threshold (rad).
-    contact_threshold: f64,
     /// Number of calm samples required before a new contact is estimated.
     calm_samples: usize,
     /// Number of successive calm samples so far.
@@ -58,7 +57,14 @@ pub(super) struct Sliding {
     rest: ShaftRest,
     /// Position of the base (m, world frame) and direction of the undeflected shaft (rad) at the previous sample.
     base_before: Option<(Point2, f64)>,
+    /// Sample rate (Hz).
+    sample_rate: f64,
+    /// Misfit of the newest reading.
+    misfit: Option<Misfit>,
 }
+
+/// Velocity of the base (m/s, world frame) and its yaw rate (rad/s).
+type Velocity = (Vector2, f64);
 
 /// The state of the estimator.
 #[derive(Debug, Clone, Copy)]
@@ -91,6 +97,8 @@ const LANDED_WITHIN: f64 = 0.02;
 const MAX_POSSIBLE_ERROR: f64 = 0.2e-3;
 /// Innovations beyond this many standard deviations are inconsistent with sliding.
 const GATE: f64 = 4.0;
+/// Standard deviation (rad) of the surface direction below which a misfit is linear in a delay of poses.
+const KNOWN_DIRECTION: f64 = 0.05;
 /// Step (rad) and maximum number of steps by which the surface is rotated back until the mechanics have a tip position.
 const TURN_BACK: f64 = 2.0 * PI / 180.0;
 const TURNS_BACK: i32 = 3;
@@ -112,11 +120,12 @@ impl Sliding {
             usual_normal: whisker.usual_normal(),
             friction_angle: math::atan(sensing.friction),
             angle,
-            contact_threshold: sensing.contact_threshold,
             calm_samples,
             calm_for: 0,
             state: State::Free,
             base_before: None,
+            sample_rate: sensing.sample_rate,
+            misfit: None,
         }
     }
 
@@ -166,8 +175,15 @@ impl Sliding {
         State::Settled(SlidingContact { first_variance: math::square(SHAFT_FIRST.0), ..contact })
     }
 
-    /// One step of the filter while the tip slides.
-    fn slide(&self, last: &SlidingContact, angle: f64, base: Pose, path: f64) -> State {
+    /// One step of the filter while the tip slides, and the misfit of the reading.
+    fn slide(
+        &self,
+        last: &SlidingContact,
+        angle: f64,
+        base: Pose,
+        path: f64,
+        velocity: Velocity,
+    ) -> (State, Option<Misfit>) {
         let unsettled = State::Unsettled { left: Some(last.before[0]), bend_sign: last.bend_sign };
         // At a light contact, noise may rotate the surface beyond every force direction that bends the whisker. The
         // nearest possible direction is used if it is within the uncertainty.
@@ -175,7 +191,7 @@ impl Sliding {
         let turns = (0..=TURNS_BACK).map(|turns| f64::from(turns) * TURN_BACK).take_while(|turn| *turn <= deviation);
         let mut directions = turns.map(|turn| last.normal - last.bend_sign * turn);
         let found = directions.find_map(|direction| Some((direction, self.tip(angle, base, direction)?)));
-        let Some((direction, tip)) = found else { return unsettled };
+        let Some((direction, tip)) = found else { return (unsettled, None) };
         let normal = unit(direction);
         let tangent = perpendicular(normal);
         let slid = (Point2::from(tip.tip_base) - last.centre).dot(&tangent);
@@ -194,22 +210,30 @@ impl Sliding {
             math::square(tip.by_angle.dot(&normal) * self.angle.correlated_deviation) + math::square(SMOOTHNESS);
         let variance = (measured * covariance * measured.transpose()).x + noise;
         let is_sliding = math::square(innovation) < math::square(GATE) * variance;
+        let carried = carried(&tip, base, velocity);
+        let by_delay = transition * Column::new(last.by_delay.0, normal.dot(&last.by_delay.1));
+        let misfit_by_delay = (measured * by_delay).x - normal.dot(&carried);
+        let has_direction = covariance.m11 < math::square(KNOWN_DIRECTION);
+        let misfit = has_direction.then_some(Misfit { distance: innovation, by_delay: misfit_by_delay, variance });
         if !is_sliding {
-            return unsettled;
+            return (unsettled, misfit);
         }
         let gain = covariance * measured.transpose() / variance;
         let centre = along - gain.y * innovation * normal;
         let left = Matrix2::identity() - gain * measured;
-        State::Settled(SlidingContact {
+        let by_delay = by_delay - gain * misfit_by_delay;
+        let state = State::Settled(SlidingContact {
             centre,
             before: [last.before[1], last.before[2], last.centre],
             normal: direction - gain.x * innovation,
             covariance: covariance - variance * gain * gain.transpose(),
             considered: left * considered * left.transpose() + noise * gain * gain.transpose(),
             tip,
+            by_delay: (by_delay.x, by_delay.y * normal - tangent.dot(&carried) * tangent),
             farthest: math::max(last.farthest, (centre - last.first).norm()),
             ..*last
-        })
+        });
+        (state, misfit)
     }
 
     /// The state of a whisker that comes to rest without having been free. It may be caught.
@@ -284,15 +308,24 @@ impl ContactEstimator for Sliding {
         let path = self.base_before.map_or(0.0, |(position, heading)| {
             (base.position - position).norm() + self.length * (base.heading - heading).abs()
         });
+        let velocity = self.base_before.map_or((Vector2::zeros(), 0.0), |(position, heading)| {
+            ((base.position - position) * self.sample_rate, (base.heading - heading) * self.sample_rate)
+        });
         self.base_before = Some((base.position, base.heading));
-        if angle.abs() < self.contact_threshold {
+        self.misfit = None;
+        if angle.abs() < self.angle.contact_threshold {
             self.state = State::Free;
             self.rest.end();
             return;
         }
+        let is_new = self.sliding_contact().is_none();
         self.state = match self.state {
             State::Free if self.calm_for > 0 => self.first(angle, base),
-            State::Settled(contact) if contact.bend_sign * bend_sign > 0.0 => self.slide(&contact, angle, base, path),
+            State::Settled(contact) if contact.bend_sign * bend_sign > 0.0 => {
+                let (state, misfit) = self.slide(&contact, angle, base, path, velocity);
+                self.misfit = misfit;
+                state
+            }
             State::Unsettled { left, bend_sign: before } if before * bend_sign > 0.0 => {
                 if self.calm_for < self.calm_samples {
                     State::Unsettled { left, bend_sign }
@@ -302,8 +335,12 @@ impl ContactEstimator for Sliding {
             }
             _ => State::Unsettled { left: None, bend_sign },
         };
-        match self.state {
+        match &mut self.state {
             State::Settled(contact) => {
+                if is_new {
+                    // A new contact is where the tip is by the measured pose.
+                    contact.by_delay.1 = -carried(&contact.tip, base, velocity);
+                }
                 let normal = (contact.bend_sign * (contact.normal - base.heading)).rem_euclid(2.0 * PI);
                 self.rest.take(angle, base, path, contact.centre, normal);
             }
@@ -311,12 +348,22 @@ impl ContactEstimator for Sliding {
         }
     }
 
+    fn misfit(&self) -> Option<Misfit> {
+        self.misfit
+    }
+
     fn interrupt(&mut self) {
         self.angle.clear();
+        self.misfit = None;
         self.calm_for = 0;
         self.base_before = None;
         self.state = State::Free;
         self.rest.end();
+    }
+
+    fn set_noise(&mut self, noise: f64) {
+        self.angle.set_noise(noise);
+        self.rest.set_deviation(self.angle.deviation);
     }
 
     fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {
@@ -353,8 +400,67 @@ const CAUGHT: f64 = 5e-3;
 /// Steps of the Gauss-Newton method from the best of these directions.
 const LANDING_ITERATIONS: usize = 6;
 
+/// Velocity (m/s) with which the tip's centre by the mechanics is carried along with its base. A delay of poses shifts the
+/// centre back by as much per second.
+fn carried(tip: &TipPosition, base: Pose, (velocity, yaw_rate): Velocity) -> Vector2 {
+    let arm = tip.tip_base - base.position.coords;
+    velocity + yaw_rate * (perpendicular(arm) - tip.by_direction)
+}
+
 /// Rate (m/rad) at which a surface through the tip moves away from `left` when its normal rotates.
 fn offset_slope(tip: &TipPosition, normal: f64, left: Point2) -> f64 {
     let normal = unit(normal);
     tip.by_direction.dot(&normal) + perpendicular(normal).dot(&(tip.tip_base - left.coords))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mechanics::Elastica;
+    use crate::rig::Rig;
+
+    /// A reading of a whisker that slides along the wall `y = 0` with its tip, and the pose of its base, at a time (s).
+    fn on_wall(whisker: &Whisker, time: f64, (press, turn, speed): (f64, f64, f64)) -> Option<(f64, Pose)> {
+        let shaft = &whisker.shaft;
+        let force = (1.2 + press * math::sin(12.0 * time)) * shaft.bending_stiffness() / math::square(shaft.length);
+        let heading = turn * math::sin(3.0 * time);
+        let direction = 105.0 * PI / 180.0 - heading;
+        let shape = Elastica::new(whisker).under(shaft.length, direction, force)?;
+        // The wall's normal points to the whisker, so the world is turned until it does.
+        let turned = heading - 105.0 * PI / 180.0 + FRAC_PI_2;
+        let tip = Point2::new(-speed * time, shaft.radius_at(1.0));
+        Some((shape.base_angle, Pose { position: tip - rotate(shape.tip_base, turned), heading: turned }))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(30))]
+
+        /// The oracle is a second estimator whose poses are late.
+        #[test]
+        fn a_misfit_grows_with_the_delay_of_poses_as_is_said(press in -0.4..0.4_f64, turn in -0.15..0.15_f64, speed in 0.02..0.06_f64) {
+            let whisker = Rig::default().whiskers.remove(0);
+            let sensing = Rig::default().sensing;
+            let [mut exact, mut late] = [(); 2].map(|()| Sliding::new(&whisker, &sensing));
+            let (delay, mut worst, mut largest) = (1e-4, 0.0_f64, 0.0_f64);
+            for index in 3..600 {
+                let time = f64::from(index) / 300.0;
+                let at = |time: f64| on_wall(&whisker, time, (press, turn, speed));
+                let (Some((base_angle, base)), Some((_, before))) = (at(time), at(time - delay)) else { continue };
+                // The whisker touches in the second step, so that its velocity is known.
+                let base_angle = if index == 3 { 0.0 } else { base_angle };
+                let reading = Reading { base_angle, ..Reading::default() };
+                exact.take(&reading, base);
+                late.take(&reading, before);
+                // Earlier the surface is not known well, so that a misfit is not linear in the delay.
+                if let (true, Some(exact), Some(late)) = (index > 300, exact.misfit(), late.misfit()) {
+                    worst = math::max(worst, ((late.distance - exact.distance) / delay - exact.by_delay).abs());
+                    largest = math::max(largest, exact.by_delay.abs());
+                }
+            }
+            prop_assert!(largest > 0.01 * press.abs(), "{largest} m/s");
+            prop_assert!(worst < 0.25 * largest + 1e-4, "{worst} m/s of {largest} m/s");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix2;
 
-use crate::geometry::{Point2, perpendicular, unit};
+use crate::geometry::{Point2, Vector2, perpendicular, unit};
 use crate::math;
 
 use super::contact::CONTACT_DEVIATION;
@@ -22,6 +22,9 @@ pub(super) struct SlidingContact {
     pub(super) covariance: Matrix2<f64>,
     /// The same covariance with the errors that the gain ignores: contacts with different compliance.
     pub(super) considered: Matrix2<f64>,
+    /// Change of the normal's direction (rad/s) and of the centre (m/s, world frame) by the delay of poses behind
+    /// readings.
+    pub(super) by_delay: (f64, Vector2),
     /// The tip position by the mechanics, with its derivatives by the base angle and by the normal's direction.
     pub(super) tip: TipPosition,
     /// Position of the first contact (m, world frame), and the largest distance from it since (m). The variance of the
@@ -54,6 +57,7 @@ impl SlidingContact {
             normal,
             covariance,
             considered: covariance,
+            by_delay: (0.0, Vector2::zeros()),
             tip: *tip,
             first: centre,
             farthest: 0.0,

@@ -9,10 +9,15 @@ use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
+use super::base_angle::NOISE_THRESHOLD;
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
+use super::inertia::{Acceleration, Inertia};
 use super::low_pass::LowPass;
+use super::measured_noise::MeasuredNoise;
+use super::pose_delay::Misfit;
+use super::pose_noise::PoseDeviation;
 use super::recorded_contour::RecordedContour;
 use super::tip_curve::TipCurve;
 
@@ -29,7 +34,7 @@ pub(super) struct PerceivedWhisker {
     pub(super) length: f64,
     /// Reading in the air (rad), as the calibration has it.
     offset: f64,
-    pub(super) base_angle: FilteredBaseAngle,
+    base_angle: FilteredBaseAngle,
     estimator: Box<dyn ContactEstimator>,
     /// The estimated contact, if there is one in this tick.
     contact: Option<Contact>,
@@ -41,6 +46,22 @@ pub(super) struct PerceivedWhisker {
     base_angle_deviation: f64,
     /// Standard deviation (m) of a surface about its outline.
     surface_roughness: f64,
+    /// Noise of the readings in free air, and its standard deviation (rad) in use.
+    noise: MeasuredNoise,
+    used_noise: f64,
+    /// Number of successive lost readings, and the largest one after which the contact is kept.
+    lost: usize,
+    bridged: usize,
+    /// Sum of the readings of this tick (rad) with their offset, and their number.
+    sum: f64,
+    count: usize,
+    /// Largest magnitude of a base angle (rad) in this tick.
+    largest: f64,
+    /// Number of readings in ticks since the whisker touched, and the number after which it is at rest.
+    free_for: usize,
+    settled_after: usize,
+    inertia: Inertia,
+    sensing: Sensing,
     /// Position of the base (m, world frame).
     pub(super) base_world: Point2,
     /// Direction of the undeflected shaft (rad, world frame).
@@ -71,8 +92,19 @@ impl PerceivedWhisker {
             contact: None,
             curve,
             contact_threshold: sensing.contact_threshold,
-            base_angle_deviation: base_angle_deviation(sensing),
             surface_roughness: sensing.surface_roughness,
+            base_angle_deviation: filtered_deviation(sensing, sensing.angle_noise),
+            noise: MeasuredNoise::new(sensing),
+            used_noise: sensing.reading_deviation(),
+            lost: 0,
+            bridged: if sensing.estimation.lost_readings { samples(BRIDGED, sensing) } else { 0 },
+            sum: 0.0,
+            count: 0,
+            largest: 0.0,
+            free_for: samples(SETTLED, sensing),
+            settled_after: samples(SETTLED, sensing),
+            inertia: Inertia::new(whisker),
+            sensing: sensing.clone(),
             base_world: Point2::origin(),
             yaw: 0.0,
             contour: RecordedContour::new(Keypoints::default()),
@@ -90,15 +122,47 @@ impl PerceivedWhisker {
         self.base_angle.value()
     }
 
-    /// Adds a reading, sampled with the platform at `body`.
-    pub(super) fn take(&mut self, reading: &Reading, body: Pose) {
-        let reading = &Reading { base_angle: reading.base_angle - self.offset, ..*reading };
-        self.base_angle.take(reading.base_angle);
-        if reading.base_angle.abs() <= GREATEST_ANGLE && body.is_finite() {
-            self.estimator.take(reading, self.base(body));
-        } else {
+    /// Begins a tick. Its readings follow.
+    pub(super) fn begin(&mut self) {
+        self.base_angle.begin();
+        (self.sum, self.count, self.largest) = (0.0, 0, 0.0);
+    }
+
+    /// Adds a reading with this `offset` (rad) beyond that of the calibration, sampled with the platform at `body`.
+    /// Returns its misfit with an expected contact.
+    pub(super) fn take(&mut self, reading: &Reading, offset: f64, body: Pose) -> Option<Misfit> {
+        let measured = reading.base_angle - self.offset;
+        let base_angle = measured - offset;
+        self.base_angle.take(base_angle);
+        let is_valid = base_angle.abs() <= GREATEST_ANGLE;
+        if is_valid {
+            self.sum += measured;
+            self.count += 1;
+            self.largest = math::max(self.largest, base_angle.abs());
+        }
+        if !is_valid || self.free_for == 0 {
+            self.noise.interrupt();
+        } else if self.sensing.estimation.noise {
+            self.noise.take(reading.base_angle);
+        }
+        if is_valid && body.is_finite() {
+            self.lost = 0;
+            self.estimator.take(&Reading { base_angle, ..*reading }, self.base(body));
+            return self.estimator.misfit();
+        }
+        self.lost = self.lost.saturating_add(1);
+        if self.lost > self.bridged {
             self.estimator.interrupt();
         }
+        None
+    }
+
+    /// The mean reading (rad) of this tick, the base angle (rad) that is calculated for this `acceleration` of the
+    /// platform, and the standard deviation (rad) of the noise. `None` unless the whisker is at rest in free air.
+    pub(super) fn free_reading(&self, acceleration: &Acceleration) -> Option<[f64; 3]> {
+        let is_at_rest = self.count > 0 && self.free_for >= self.settled_after;
+        let count = self.count as f64;
+        is_at_rest.then(|| [self.sum / count, self.inertia.base_angle(acceleration), self.used_noise / count.sqrt()])
     }
 
     /// The position of the base and the direction of the undeflected shaft, with the platform at `body`.
@@ -107,14 +171,34 @@ impl PerceivedWhisker {
         Pose { position, heading: body.heading + self.direction_body }
     }
 
-    /// Updates pose and contact of the whisker, with the platform at `body`.
-    pub(super) fn update(&mut self, body: Pose) {
+    /// Updates pose and contact of the whisker, with the platform at `body` and these errors of poses.
+    pub(super) fn update(&mut self, body: Pose, pose_deviation: PoseDeviation) {
         let base = self.base(body);
         (self.base_world, self.yaw) = (base.position, base.heading);
         let base_angle = self.base_angle();
         self.contact = if base_angle.is_nan() { None } else { self.estimator.contact(base_angle, base) };
         self.contour.begin();
+        if pose_deviation != PoseDeviation::default()
+            && let Some(contact) = &mut self.contact
+        {
+            contact.add_pose_errors(body, pose_deviation);
+        }
+        self.update_noise();
+        let is_free = self.contact.is_none() && !self.is_touching() && self.largest < self.contact_threshold;
+        self.free_for = if is_free { self.free_for.saturating_add(self.count) } else { 0 };
         self.marks = Default::default();
+    }
+
+    /// Uses the measured noise if it has changed.
+    fn update_noise(&mut self) {
+        let noise = self.noise.value();
+        if (noise - self.used_noise).abs() > NOISE_STEP * noise {
+            self.used_noise = noise;
+            self.estimator.set_noise(noise);
+            self.base_angle_deviation = filtered_deviation(&self.sensing, noise);
+            self.contact_threshold =
+                math::max(self.sensing.contact_threshold, NOISE_THRESHOLD * self.base_angle_deviation);
+        }
     }
 
     /// Records a mark, at most once per tick.
@@ -212,9 +296,22 @@ fn offset(whisker: &Whisker) -> f64 {
     measured.map_or(0.0, |measured| measured.offset)
 }
 
-/// Standard deviation of a filtered base angle (rad).
-pub(super) fn base_angle_deviation(sensing: &Sensing) -> f64 {
+/// Time (s) of lost readings that a contact survives.
+const BRIDGED: f64 = 0.03;
+/// Time (s) after a touch in which a whisker comes to rest.
+const SETTLED: f64 = 0.3;
+/// Relative change of the measured noise that has an effect.
+const NOISE_STEP: f64 = 0.1;
+
+/// Number of samples in a time (s), rounded up.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+fn samples(time: f64, sensing: &Sensing) -> usize {
+    (time * sensing.sample_rate).ceil() as usize
+}
+
+/// Standard deviation of a filtered base angle (rad), for this noise (rad) of a reading.
+pub(super) fn filtered_deviation(sensing: &Sensing, noise: f64) -> f64 {
     // The filter reduces noise, but not the rounding error of a whisker at rest.
-    let noise = sensing.angle_noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
+    let noise = noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
     math::hypot(noise, sensing.angle_resolution / 12.0_f64.sqrt())
 }

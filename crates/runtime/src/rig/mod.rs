@@ -2,6 +2,7 @@
 //!
 //! Body frame: origin at the platform's centre of mass, first axis forward (the heading), second axis to the left.
 
+mod estimation;
 mod hinge;
 mod platform;
 mod sensing;
@@ -11,6 +12,7 @@ mod whisker;
 
 use serde::{Deserialize, Serialize};
 
+pub use estimation::Estimation;
 pub use hinge::Hinge;
 pub use platform::{Platform, YawController};
 pub use sensing::Sensing;

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Estimation;
+use crate::math;
+
 /// Rates, noise and filters of the sensors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,6 +30,9 @@ pub struct Sensing {
     pub forces: bool,
     /// Standard deviation of the noise on each of these forces (N).
     pub force_noise: f64,
+    /// Estimates that correct these values during a run.
+    #[serde(default)]
+    pub estimation: Estimation,
 }
 
 /// Standard deviation of the noise of the real sensor (rad), and its resolution (rad). Both are estimates without a
@@ -46,6 +52,12 @@ impl Sensing {
     #[must_use]
     pub fn is_noisy(&self) -> bool {
         self.angle_noise > 0.0 || (self.forces && self.force_noise > 0.0)
+    }
+
+    /// Standard deviation (rad) of one reading of a base angle.
+    #[must_use]
+    pub fn reading_deviation(&self) -> f64 {
+        math::hypot(self.angle_noise, self.angle_resolution / 12.0_f64.sqrt())
     }
 
     /// Sets noise and resolution to those of the real sensor.
@@ -68,6 +80,7 @@ impl Default for Sensing {
             surface_roughness: 0.0,
             forces: false,
             force_noise: 0.0,
+            estimation: Estimation::default(),
         }
     }
 }

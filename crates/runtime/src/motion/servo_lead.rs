@@ -1,0 +1,100 @@
+//! Commands for a platform whose servos are slower or faster than the rig states.
+
+use nalgebra::Vector3;
+
+use crate::math;
+use crate::rig::Rig;
+use crate::signal::Command;
+
+/// Changes commands so that the platform moves as one with the stated servos would.
+///
+/// A servo with the time constant `T` follows a command `u` by `T v' = u - v`. For a slower servo, the command therefore
+/// goes beyond the wanted speed while this changes.
+#[derive(Debug, Clone)]
+pub struct ServoLead {
+    /// Stated time constant of the servos (s), and the control period (s).
+    stated: f64,
+    period: f64,
+    /// Speed (m/s) and yaw rate (rad/s) that the platform cannot exceed.
+    limits: (f64, f64),
+    /// Speed of the stated platform and of the actual one: x, y (m/s), yaw rate (rad/s).
+    wanted: Vector3<f64>,
+    actual: Vector3<f64>,
+}
+
+impl ServoLead {
+    /// Creates it for the platform of `rig`, at rest.
+    #[must_use]
+    pub fn new(rig: &Rig) -> Self {
+        Self {
+            stated: rig.platform.servo,
+            period: rig.sensing.control_rate.recip(),
+            limits: (rig.platform.speed_limit, rig.platform.yaw_rate_limit),
+            wanted: Vector3::zeros(),
+            actual: Vector3::zeros(),
+        }
+    }
+
+    /// Returns the command for servos with the time constant `servo` (s). With the stated servos it is `command` itself.
+    pub fn next(&mut self, command: Command, servo: f64) -> Command {
+        let aim = command.velocity_world.push(command.yaw_rate);
+        let (stated_left, left) = (math::exp(-self.period / self.stated), math::exp(-self.period / servo));
+        self.wanted = self.wanted * stated_left + aim * (1.0 - stated_left);
+        let is_stated = (servo - self.stated).abs() < f64::EPSILON;
+        let changed = if is_stated { aim } else { (self.wanted - self.actual * left) / (1.0 - left) };
+        let (speed, yaw_rate) = (changed.xy().norm(), changed.z);
+        let slower = if speed > self.limits.0 { self.limits.0 / speed } else { 1.0 };
+        let lead =
+            Command { velocity_world: changed.xy() * slower, yaw_rate: yaw_rate.clamp(-self.limits.1, self.limits.1) };
+        let lead = if is_stated { command } else { lead };
+        self.actual = self.actual * left + lead.velocity_world.push(lead.yaw_rate) * (1.0 - left);
+        lead
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_platform_with_other_servos_moves_as_the_stated_one(
+            commands in prop::collection::vec((-0.05..0.05_f64, -0.5..0.5_f64), 1..60), ratio in 0.3..4.0_f64,
+        ) {
+            let rig = Rig::default();
+            let servo = ratio * rig.platform.servo;
+            let period = rig.sensing.control_rate.recip();
+            let mut lead = ServoLead::new(&rig);
+            let (mut actual, mut wanted) = ([0.0; 2], [0.0; 2]);
+            for (speed, yaw_rate) in commands {
+                let command = Command { velocity_world: nalgebra::Vector2::new(speed, -speed), yaw_rate };
+                let given = lead.next(command, servo);
+                for _ in 0..1000 {
+                    let step = period / 1000.0;
+                    actual[0] += (given.velocity_world.x - actual[0]) * step / servo;
+                    actual[1] += (given.yaw_rate - actual[1]) * step / servo;
+                    wanted[0] += (speed - wanted[0]) * step / rig.platform.servo;
+                    wanted[1] += (yaw_rate - wanted[1]) * step / rig.platform.servo;
+                }
+                prop_assert!((actual[0] - wanted[0]).abs() < 1e-3 && (actual[1] - wanted[1]).abs() < 1e-2);
+            }
+        }
+
+        #[test]
+        fn commands_are_within_the_limits_and_those_for_stated_servos_are_the_same(
+            commands in prop::collection::vec((-1.0..1.0_f64, -3.0..3.0_f64), 1..30), ratio in 0.1..20.0_f64,
+        ) {
+            let rig = Rig::default();
+            let (mut lead, mut same) = (ServoLead::new(&rig), ServoLead::new(&rig));
+            for (speed, yaw_rate) in commands {
+                let command = Command { velocity_world: nalgebra::Vector2::new(speed, 0.0), yaw_rate };
+                let given = lead.next(command, ratio * rig.platform.servo);
+                prop_assert!(given.velocity_world.norm() <= rig.platform.speed_limit + 1e-12);
+                prop_assert!(given.yaw_rate.abs() <= rig.platform.yaw_rate_limit);
+                prop_assert_eq!(same.next(command, rig.platform.servo), command);
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The measured delays and errors of poses and commands.
+
+use crate::geometry::Pose;
+use crate::rig::{Estimation, Rig};
+use crate::signal::{Command, Sample};
+
+use super::platform_motion::{Motion, PlatformMotion};
+use super::pose_delay::{Misfit, PoseDelay};
+use super::pose_noise::{PoseDeviation, PoseNoise};
+
+/// The delays of poses and commands, and the poses without them.
+///
+/// Commands and poses give the sum of both delays, and the errors of poses. Contacts give the delay of poses alone.
+#[derive(Debug, Clone)]
+pub(super) struct Motions {
+    platform: PlatformMotion,
+    contacts: PoseDelay,
+    noise: PoseNoise,
+    /// Delay (s) of poses that is corrected.
+    pose: f64,
+    /// What is corrected.
+    estimation: Estimation,
+    /// Share of a difference by which the corrected delay follows the measured one in a tick.
+    following: f64,
+}
+
+/// Time (s) in which the corrected delay follows the measured one.
+const FOLLOWING: f64 = 1.0;
+
+impl Motions {
+    /// Creates the measurement for `rig`.
+    pub(super) fn new(rig: &Rig) -> Self {
+        let following = (FOLLOWING * rig.sensing.control_rate).recip().min(1.0);
+        Self {
+            platform: PlatformMotion::new(rig),
+            contacts: PoseDelay::new(),
+            noise: PoseNoise::new(),
+            pose: 0.0,
+            estimation: rig.sensing.estimation,
+            following,
+        }
+    }
+
+    /// Sets the command that holds until the next tick.
+    pub(super) fn command(&mut self, command: Command) {
+        self.platform.command(command);
+    }
+
+    /// Begins a tick `period` (s) after the last one.
+    pub(super) fn begin(&mut self, period: f64) {
+        self.platform.advance(period);
+    }
+
+    /// The pose at the time of a sample, which is `ago` (s) before the end of the tick. The measured pose is older by
+    /// the delay of poses.
+    pub(super) fn pose(&self, sample: &Sample, ago: f64) -> Pose {
+        if self.pose > 0.0 {
+            let until = ago + self.delay() - self.pose;
+            moved(sample.body, &self.platform.between(until + self.pose, until))
+        } else {
+            sample.body
+        }
+    }
+
+    /// Adds the misfit of a reading.
+    pub(super) fn add(&mut self, misfit: &Misfit) {
+        self.contacts.add(misfit, self.pose);
+    }
+
+    /// Ends a tick with the measured `pose`, which may be unknown.
+    pub(super) fn end(&mut self, pose: Pose) {
+        let difference = self.platform.compare(pose);
+        self.noise.take(difference);
+        let measured = self.contacts.value(self.delay());
+        self.pose += (measured - self.pose) * self.following;
+    }
+
+    /// The pose at which the next command takes effect, from the measured `pose`.
+    pub(super) fn at_effect(&self, pose: Pose) -> Pose {
+        let delay = self.delay();
+        if delay > 0.0 { moved(pose, &self.platform.between(delay, 0.0)) } else { pose }
+    }
+
+    /// The errors of measured poses.
+    pub(super) fn pose_deviation(&self) -> PoseDeviation {
+        if self.estimation.pose_noise { self.noise.deviation() } else { PoseDeviation::default() }
+    }
+
+    /// Time constant (s) of the servos, if it is not the one of the rig.
+    pub(super) fn servo(&self) -> Option<f64> {
+        self.platform.servo().filter(|_| self.estimation.delay)
+    }
+
+    /// Delay (s) of a measured pose behind its command.
+    fn delay(&self) -> f64 {
+        if self.estimation.delay { self.platform.delay() } else { 0.0 }
+    }
+
+    /// The expected motion in the tick of `period` (s) that ends with the newest measured pose. `None` if it is as the
+    /// rig states.
+    pub(super) fn expected(&self, period: f64) -> Option<Motion> {
+        let delay = self.delay();
+        let is_as_stated = delay == 0.0 && self.servo().is_none();
+        (!is_as_stated).then(|| self.platform.between(delay + period, delay))
+    }
+}
+
+/// A pose after a motion.
+fn moved(pose: Pose, motion: &Motion) -> Pose {
+    Pose { position: pose.position + motion.xy(), heading: pose.heading + motion.z }
+}

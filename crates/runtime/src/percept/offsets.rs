@@ -1,0 +1,198 @@
+//! Offsets of base angles and their drift, from whiskers in free air.
+
+use crate::math;
+use crate::signal::MAX_WHISKERS;
+
+/// The offsets of the readings of all whiskers, which drift.
+///
+/// A Kalman filter has the offset of each whisker and its rate as states. The reading of a whisker in free air is a
+/// measurement of its offset. The rates have a common part, for example due to temperature. So a whisker in contact gets
+/// the drift of those in free air.
+#[derive(Debug, Clone)]
+pub(super) struct Offsets {
+    /// Number of whiskers.
+    count: usize,
+    /// The offset (µrad) of whisker `i` at `2 i`, and its rate (µrad/s) at `2 i + 1`. Behind them is the effect of
+    /// inertia.
+    state: [f64; STATES],
+    covariance: [[f64; STATES]; STATES],
+    /// True once an offset is known to differ from 0.
+    is_known: bool,
+}
+
+const STATES: usize = 2 * MAX_WHISKERS + 1;
+/// Standard deviation (µrad) of an offset at the start of a run.
+const FIRST_OFFSET: f64 = 10.0;
+/// Standard deviations (µrad/s) of the common rate and of the difference of a whisker's rate from it.
+const COMMON_RATE: f64 = 0.3;
+const OWN_RATE: f64 = 0.05;
+/// Standard deviation of the effect of inertia over the calculated one, which is expected.
+const INERTIA: f64 = 0.7;
+/// Growth of the variance of these rates (µrad²/s³), which change within minutes.
+const COMMON_CHANGE: f64 = 1e-4;
+const OWN_CHANGE: f64 = 4e-6;
+/// Growth of the variance of an offset (µrad²/s).
+const WALK: f64 = 4e-4;
+/// Standard deviation (µrad) of the mean reading of a tick in free air, because a whisker swings, and its share of the
+/// effect of inertia. Both add to noise.
+const SWING: f64 = 0.3;
+const SWING_SHARE: f64 = 0.5;
+/// Largest effect of inertia (µrad) for a measurement. A whisker swings after a larger one.
+const MOST_BENT: f64 = 1.0;
+/// Largest difference of a measured offset from the expected one, in standard deviations. A larger one is a touch.
+const GATE: f64 = 4.0;
+/// Offset (rad) that perception tolerates without a correction, and its standard deviations that make it significant.
+const TOLERATED: f64 = 3e-7;
+const SIGNIFICANT: f64 = 3.0;
+
+const MICRO: f64 = 1e-6;
+
+impl Offsets {
+    /// Creates the offsets of so many whiskers, at most [`MAX_WHISKERS`].
+    pub(super) fn new(count: usize) -> Self {
+        let count = count.min(MAX_WHISKERS);
+        let mut state = [0.0; STATES];
+        state[2 * count] = 1.0;
+        let mut covariance = [[0.0; STATES]; STATES];
+        for (row, line) in covariance.iter_mut().enumerate() {
+            for (column, value) in line.iter_mut().enumerate() {
+                *value = match (row % 2, column % 2) {
+                    _ if row >= 2 * count || column >= 2 * count => 0.0,
+                    (0, 0) if row == column => math::square(FIRST_OFFSET),
+                    (1, 1) if row == column => math::square(COMMON_RATE) + math::square(OWN_RATE),
+                    (1, 1) => math::square(COMMON_RATE),
+                    _ => 0.0,
+                };
+            }
+        }
+        covariance[2 * count][2 * count] = math::square(INERTIA);
+        Self { count, state, covariance, is_known: false }
+    }
+
+    /// The offset (rad) of a whisker, or 0 while none is significant.
+    pub(super) fn value(&self, whisker: usize) -> f64 {
+        if self.is_known { self.state[2 * whisker] * MICRO } else { 0.0 }
+    }
+
+    /// Continues the drift for `period` (s).
+    pub(super) fn predict(&mut self, period: f64) {
+        let states = 2 * self.count + 1;
+        for whisker in 0..self.count {
+            self.state[2 * whisker] += self.state[2 * whisker + 1] * period;
+            for column in 0..states {
+                self.covariance[2 * whisker][column] += self.covariance[2 * whisker + 1][column] * period;
+            }
+        }
+        for row in 0..states {
+            for whisker in 0..self.count {
+                self.covariance[row][2 * whisker] += self.covariance[row][2 * whisker + 1] * period;
+            }
+        }
+        for row in 0..self.count {
+            self.covariance[2 * row][2 * row] += WALK * period;
+            self.covariance[2 * row + 1][2 * row + 1] += OWN_CHANGE * period;
+            for column in 0..self.count {
+                self.covariance[2 * row + 1][2 * column + 1] += COMMON_CHANGE * period;
+            }
+        }
+    }
+
+    /// Adds the mean reading (rad) of a whisker in free air, with the base angle (rad) that is calculated for inertia.
+    /// `deviation` (rad) is the standard deviation of the noise.
+    pub(super) fn measure(&mut self, whisker: usize, reading: f64, bent: f64, deviation: f64) {
+        let (inertia, measured, bent) = (2 * self.count, 2 * whisker, bent / MICRO);
+        if bent.abs() > MOST_BENT {
+            return;
+        }
+        let column: [f64; STATES] =
+            std::array::from_fn(|row| self.covariance[row][measured] + bent * self.covariance[row][inertia]);
+        let variance = column[measured]
+            + bent * column[inertia]
+            + math::square(SWING)
+            + math::square(SWING_SHARE * bent)
+            + math::square(deviation / MICRO);
+        let innovation = reading / MICRO - self.state[measured] - bent * self.state[inertia];
+        if math::square(innovation) > math::square(GATE) * variance {
+            return;
+        }
+        for row in 0..=inertia {
+            let gain = column[row] / variance;
+            self.state[row] += gain * innovation;
+            for other in 0..=inertia {
+                self.covariance[row][other] -= gain * column[other];
+            }
+        }
+        let offset = self.state[measured].abs();
+        self.is_known |= offset > TOLERATED / MICRO
+            && math::square(offset) > math::square(SIGNIFICANT) * self.covariance[measured][measured];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::robust_variance::tests::normals;
+    use super::*;
+
+    const PERIOD: f64 = 1.0 / 30.0;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        #[test]
+        fn a_whisker_in_contact_has_the_drift_of_one_in_free_air(
+            first in -8e-6..8e-6_f64, second in -8e-6..8e-6_f64, rate in -4e-7..4e-7_f64, values in normals(4200),
+        ) {
+            let mut offsets = Offsets::new(2);
+            for (tick, pair) in values.chunks(2).enumerate() {
+                let time = PERIOD * f64::from(u32::try_from(tick).unwrap_or(0));
+                offsets.predict(PERIOD);
+                let (noise, drift) = (2e-7, rate * time);
+                if time < 5.0 {
+                    offsets.measure(0, first + drift + noise * pair[0], 0.0, noise);
+                }
+                offsets.measure(1, second + drift + noise * pair[1], 0.0, noise);
+                if tick > 150 && first.abs() + second.abs() > 2e-6 {
+                    // The two had 5 s to differ.
+                    prop_assert!((offsets.value(1) - second - drift).abs() < 3e-7, "{time} s");
+                    prop_assert!((offsets.value(0) - first - drift).abs() < 2.5e-6, "{time} s: {}", offsets.value(0) - first - drift);
+                }
+            }
+        }
+
+        #[test]
+        fn without_a_significant_offset_readings_are_not_changed(values in normals(2000)) {
+            let mut offsets = Offsets::new(1);
+            for value in values {
+                offsets.predict(PERIOD);
+                offsets.measure(0, 1.5e-7 * value, 0.0, 1.5e-7);
+                prop_assert_eq!(offsets.value(0).to_bits(), 0.0_f64.to_bits());
+            }
+        }
+
+        #[test]
+        fn a_touch_is_no_offset(offset in -5e-6..5e-6_f64, touch in 3e-6..1.5e-5_f64) {
+            let mut offsets = Offsets::new(1);
+            for tick in 0..200 {
+                offsets.predict(PERIOD);
+                offsets.measure(0, offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7);
+            }
+            prop_assert!((offsets.value(0) - offset).abs() < 4e-7);
+        }
+
+        #[test]
+        fn whiskers_are_found_to_have_inertia_or_none(effect in 0.0..1.2_f64, offset in 2e-6..8e-6_f64, values in normals(600)) {
+            let mut offsets = Offsets::new(2);
+            for (tick, pair) in values.chunks(2).enumerate() {
+                // The platform rotates in every second second.
+                let bent = if tick / 30 % 2 == 0 { 2.5e-7 } else { 0.0 };
+                offsets.predict(PERIOD);
+                offsets.measure(0, offset + effect * bent + 1e-8 * pair[0], bent, 1e-8);
+                offsets.measure(1, -offset - effect * bent + 1e-8 * pair[1], -bent, 1e-8);
+            }
+            prop_assert!((offsets.value(0) - offset).abs() < 1.2e-7, "{}", offsets.value(0) - offset);
+            prop_assert!((offsets.value(1) + offset).abs() < 1.2e-7);
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! The motion of the platform by its commands: its measured delay and servo.
+
+use nalgebra::Vector3;
+
+use crate::geometry::{Pose, turn_between};
+use crate::math;
+use crate::rig::Rig;
+use crate::signal::Command;
+
+/// A motion of the body: x and y of the centre of mass (m, world frame) and the rotation (rad).
+pub(super) type Motion = Vector3<f64>;
+
+/// Measures how the platform follows its commands.
+///
+/// A platform follows a command after a delay, with the time constant of its servos. Expected motions for a grid of both
+/// are compared with measured poses. The expected motions of a servo are the same for all delays, but later. So they are
+/// computed once for each servo and remembered.
+#[derive(Debug, Clone)]
+pub(super) struct PlatformMotion {
+    /// Time between ticks and between steps (s), and the number of steps in a tick.
+    period: f64,
+    step: f64,
+    steps: usize,
+    /// The servos of the grid, fastest first.
+    servos: [Servo; SERVOS.len()],
+    /// Index of the newest step in the memory of motions, and the number of steps since the last gap.
+    newest: usize,
+    known: usize,
+    /// Averages of squared differences (m²), by servo and delay.
+    costs: [[f64; DELAYS]; SERVOS.len()],
+    /// Pose of the last tick, or unknown.
+    pose: Pose,
+    /// The current command.
+    command: Command,
+    /// Time constant of the servos (s) according to the rig, and as measured.
+    stated_servo: f64,
+    servo: f64,
+    /// Measured delay (s) of a pose behind its command.
+    delay: f64,
+}
+
+/// A platform with the time constant of one servo.
+#[derive(Debug, Clone)]
+struct Servo {
+    /// Time constant (s).
+    time: f64,
+    /// Share of the speed difference that is left after a step, and the equivalent time (s) at that difference.
+    left: f64,
+    behind: f64,
+    speed: Motion,
+    /// Motion since the start of the run, at the newest steps.
+    motions: [Motion; MEMORY],
+}
+
+/// Time constants of the grid over that of the rig, and the index of the rig's one.
+const SERVOS: [f64; 8] = [
+    0.5,
+    std::f64::consts::FRAC_1_SQRT_2,
+    1.0,
+    std::f64::consts::SQRT_2,
+    2.0,
+    2.0 * std::f64::consts::SQRT_2,
+    4.0,
+    4.0 * std::f64::consts::SQRT_2,
+];
+const STATED: usize = 2;
+/// Wanted time between steps (s), and the most steps in a tick.
+const STEP: f64 = 1.0 / 300.0;
+const MOST_STEPS: usize = 15;
+/// Number of delays of the grid, and of steps between two of them.
+const DELAYS: usize = 16;
+const DELAY_STEPS: usize = 3;
+/// Number of remembered steps.
+const MEMORY: usize = 64;
+/// Distance (m) from the centre of mass at which a rotation counts like a translation.
+const ARM: f64 = 0.1;
+/// Share of a difference that is left after a tick. Differences of half a minute count.
+const REMEMBERED: f64 = 0.999;
+/// Smallest sum of squared differences (m²) that is not due to forces or errors of poses, and the largest share of it
+/// that another servo or delay may leave. A platform that is blocked leaves more with all of them.
+const LEAST_COST: f64 = 1e-6;
+const MOST_LEFT: f64 = 0.15;
+/// Smallest delay (s), and the smallest ratio of time constants, that is corrected.
+const LEAST_DELAY: f64 = 8e-3;
+const LEAST_RATIO: f64 = 1.2;
+/// Relative difference of time constants that has no effect.
+const NEAR: f64 = 1e-3;
+/// Time (s) in which a correction follows what is measured.
+const FOLLOWING: f64 = 1.0;
+
+impl PlatformMotion {
+    /// Creates the measurement for the platform of `rig`, at rest.
+    pub(super) fn new(rig: &Rig) -> Self {
+        let period = rig.sensing.control_rate.recip();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let steps = ((period / STEP).round() as usize).clamp(1, MOST_STEPS);
+        let step = period / steps as f64;
+        let stated_servo = rig.platform.servo;
+        let servo = |factor: f64| {
+            let time = factor * stated_servo;
+            let left = math::exp(-step / time);
+            let (speed, motions) = (Motion::zeros(), [Motion::zeros(); MEMORY]);
+            Servo { time, left, behind: time * (1.0 - left), speed, motions }
+        };
+        Self {
+            period,
+            step,
+            steps,
+            servos: SERVOS.map(servo),
+            newest: 0,
+            known: 0,
+            costs: [[0.0; DELAYS]; SERVOS.len()],
+            pose: Pose::UNKNOWN,
+            command: Command::STOP,
+            stated_servo,
+            servo: stated_servo,
+            delay: 0.0,
+        }
+    }
+
+    /// Sets the command that holds until the next tick.
+    pub(super) fn command(&mut self, command: Command) {
+        self.command = command;
+    }
+
+    /// Measured time constant of the servos (s), if it is not the stated one.
+    pub(super) fn servo(&self) -> Option<f64> {
+        ((self.servo - self.stated_servo).abs() > NEAR * self.stated_servo).then_some(self.servo)
+    }
+
+    /// Delay (s) of measured poses behind their commands. It does not include the servos.
+    pub(super) fn delay(&self) -> f64 {
+        self.delay
+    }
+
+    /// Continues the expected motion for a tick of `period` (s).
+    pub(super) fn advance(&mut self, period: f64) {
+        // After a tick of another length the times of earlier steps are wrong.
+        if (period - self.period).abs() > 0.5 * self.period {
+            self.known = 0;
+        }
+        let aim = self.command.velocity_world.push(self.command.yaw_rate);
+        for _ in 0..self.steps {
+            let next = (self.newest + 1) % MEMORY;
+            for servo in &mut self.servos {
+                let motion = servo.speed * servo.behind + aim * (self.step - servo.behind);
+                servo.speed = servo.speed * servo.left + aim * (1.0 - servo.left);
+                servo.motions[next] = servo.motions[self.newest] + motion;
+            }
+            self.newest = next;
+        }
+        self.known = (self.known + self.steps).min(MEMORY);
+    }
+
+    /// Compares the expected motions of this tick with the measured `pose`, which may be unknown. Returns the measured
+    /// motion beyond the expected one, if both are known.
+    pub(super) fn compare(&mut self, pose: Pose) -> Option<Motion> {
+        let before = std::mem::replace(&mut self.pose, pose);
+        if !(before.is_finite() && pose.is_finite()) || self.known < MEMORY {
+            return None;
+        }
+        let turn = turn_between(before.heading, pose.heading);
+        let measured = (pose.position - before.position).push(turn);
+        for (servo, costs) in self.servos.iter().zip(&mut self.costs) {
+            for (delay, cost) in costs.iter_mut().enumerate() {
+                let back = delay * DELAY_STEPS;
+                let expected =
+                    servo.motions[earlier(self.newest, back)] - servo.motions[earlier(self.newest, back + self.steps)];
+                let missing = measured - expected;
+                let squared = missing.xy().norm_squared() + math::square(ARM * missing.z);
+                *cost = *cost * REMEMBERED + squared;
+            }
+        }
+        self.estimate();
+        Some(measured - self.between(self.delay + self.period, self.delay))
+    }
+
+    /// Follows the servo and the delay with the smallest differences, if they are significant.
+    fn estimate(&mut self) {
+        let stated = self.costs[STATED][0];
+        let (mut best, mut at) = (stated, (STATED, 0));
+        for (servo, costs) in self.costs.iter().enumerate() {
+            for (delay, &cost) in costs.iter().enumerate() {
+                if cost < best {
+                    (best, at) = (cost, (servo, delay));
+                }
+            }
+        }
+        if stated < LEAST_COST || best > MOST_LEFT * stated {
+            return;
+        }
+        let by_delay = |delay: usize| self.costs[at.0][delay];
+        let by_servo = |servo: usize| self.costs[servo][at.1];
+        let delay = (at.1 as f64 + vertex(at.1, DELAYS, by_delay)) * (DELAY_STEPS as f64 * self.step);
+        // The grid is logarithmic, with two servos for a factor of 2.
+        let ratio = math::powf(2.0, (at.0 as f64 + vertex(at.0, SERVOS.len(), by_servo) - STATED as f64) / 2.0);
+        let delay = if delay < LEAST_DELAY { 0.0 } else { delay };
+        let ratio = if ratio < LEAST_RATIO && ratio * LEAST_RATIO > 1.0 { 1.0 } else { ratio };
+        let share = math::min(self.period / FOLLOWING, 1.0);
+        self.delay += (delay - self.delay) * share;
+        self.servo += (ratio * self.stated_servo - self.servo) * share;
+    }
+
+    /// The expected motion from `from` to `to` (s) before the newest step.
+    pub(super) fn between(&self, from: f64, to: f64) -> Motion {
+        let servo = self.servos.iter().min_by(|a, b| {
+            let distance = |servo: &Servo| (servo.time - self.servo).abs();
+            distance(a).total_cmp(&distance(b))
+        });
+        servo.map_or_else(Motion::zeros, |servo| self.motion(servo, to) - self.motion(servo, from))
+    }
+
+    /// The motion of a servo up to `ago` (s) before the newest step, interpolated between steps.
+    fn motion(&self, servo: &Servo, ago: f64) -> Motion {
+        let along = (ago / self.step).clamp(0.0, (MEMORY - 2) as f64);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the memory")]
+        let whole = along as usize;
+        let (after, before) =
+            (servo.motions[earlier(self.newest, whole)], servo.motions[earlier(self.newest, whole + 1)]);
+        after.lerp(&before, along - whole as f64)
+    }
+}
+
+/// The index of the step so many steps before `newest`.
+fn earlier(newest: usize, steps: usize) -> usize {
+    (newest + MEMORY - steps) % MEMORY
+}
+
+/// The place of the vertex of the parabola through the value at `index` and its neighbours, relative to `index`. 0 at
+/// the ends of `count` values.
+pub(super) fn vertex(index: usize, count: usize, value: impl Fn(usize) -> f64) -> f64 {
+    if index == 0 || index + 1 == count {
+        return 0.0;
+    }
+    let (below, here, above) = (value(index - 1), value(index), value(index + 1));
+    let bend = below - 2.0 * here + above;
+    if bend > 0.0 { (0.5 * (below - above) / bend).clamp(-0.5, 0.5) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::geometry::{Point2, Vector2};
+
+    /// A platform that is simulated in steps of 0.1 ms, with a delay (s) of commands or poses and with servos (s).
+    fn measured(commands: &[(f64, f64)], delay: f64, servo: f64) -> PlatformMotion {
+        let rig = Rig::default();
+        let mut platform = PlatformMotion::new(&rig);
+        let (step, per_tick) = (1e-4, 333);
+        let period = step * f64::from(per_tick);
+        let late = (delay / step).round();
+        let at = |index: f64| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+            let tick = (index.max(0.0) / f64::from(per_tick)) as usize;
+            // Every command holds for ten ticks. The first one is given at the end of the first tick.
+            let before = tick.checked_sub(1).and_then(|tick| commands.get(tick / 10));
+            before
+                .filter(|_| index >= 0.0)
+                .map_or(Motion::zeros(), |&(speed, rate)| Motion::new(speed, -0.5 * speed, rate))
+        };
+        let (mut speed, mut pose) = (Motion::zeros(), Motion::zeros());
+        for tick in 0..commands.len() * 10 {
+            for substep in 0..per_tick {
+                let index = f64::from(u32::try_from(tick).unwrap_or(0)) * f64::from(per_tick) + f64::from(substep);
+                speed += (at(index - late) - speed) * (step / servo);
+                pose += speed * step;
+            }
+            platform.advance(period);
+            platform.compare(Pose { position: Point2::new(pose.x, pose.y), heading: pose.z });
+            let next = at(f64::from(u32::try_from(tick + 1).unwrap_or(0)) * f64::from(per_tick));
+            platform.command(Command { velocity_world: Vector2::new(next.x, next.y), yaw_rate: next.z });
+        }
+        platform
+    }
+
+    fn commands() -> impl Strategy<Value = Vec<(f64, f64)>> {
+        prop::collection::vec((-0.05..0.05_f64, -1.0..1.0_f64), 60)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn delay_and_servo_are_found(commands in commands(), delay in 0.02..0.12_f64, ratio in 1.0..4.5_f64) {
+            let servo = ratio * Rig::default().platform.servo;
+            let platform = measured(&commands, delay, servo);
+            let found = platform.servo().unwrap_or(0.05);
+            prop_assert!((platform.delay() - delay).abs() < 0.015, "{} s, {delay} s", platform.delay());
+            prop_assert!((0.75..1.3).contains(&(found / servo)), "{found} s, {servo} s");
+            prop_assert!((platform.delay() + found - delay - servo).abs() < 0.02);
+        }
+
+        #[test]
+        fn a_platform_as_stated_is_left_as_it_is(commands in commands()) {
+            let platform = measured(&commands, 0.0, Rig::default().platform.servo);
+            prop_assert_eq!(platform.delay().to_bits(), 0.0_f64.to_bits());
+            prop_assert_eq!(platform.servo(), None);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Errors of measured poses, from the differences of measured and expected motions.
+
+use super::platform_motion::Motion;
+use super::robust_variance::RobustVariance;
+
+/// The standard deviations of the errors of measured poses.
+///
+/// Differences of measured and expected motions are summed. The second difference of these sums does not depend on a
+/// constant speed, such as that by which a bent whisker pushes the platform.
+#[derive(Debug, Clone)]
+pub(super) struct PoseNoise {
+    /// Sums of the differences at the newest ticks, and their number since the last gap.
+    sums: [Motion; 2 * LAG + 1],
+    newest: usize,
+    count: usize,
+    /// Variances of the position (m²) and of the heading (rad²).
+    position: RobustVariance,
+    heading: RobustVariance,
+}
+
+/// The standard deviations of the errors of a measured pose.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct PoseDeviation {
+    /// Of each coordinate of the position (m).
+    pub(super) position: f64,
+    /// Of the heading (rad).
+    pub(super) heading: f64,
+}
+
+/// Ticks between the sums of a second difference. For an error with a correlation time of 1 s, at 30 Hz, it then has the
+/// standard deviation of the error.
+const LAG: usize = 8;
+/// Errors of the position (m) and of the heading (rad) that have no effect. Bent whiskers push a platform with exact poses
+/// by nearly as much.
+const LEAST: (f64, f64) = (3e-5, 2.5e-4);
+
+impl PoseNoise {
+    /// Creates the measurement.
+    pub(super) fn new() -> Self {
+        Self {
+            sums: [Motion::zeros(); 2 * LAG + 1],
+            newest: 0,
+            count: 0,
+            position: RobustVariance::new(LEAST.0),
+            heading: RobustVariance::new(LEAST.1),
+        }
+    }
+
+    /// Adds the difference of the measured and the expected motion of a tick. `None` if one of them is unknown.
+    pub(super) fn take(&mut self, difference: Option<Motion>) {
+        let Some(difference) = difference else {
+            self.count = 0;
+            return;
+        };
+        let before = self.sums[self.newest];
+        self.newest = (self.newest + 1) % self.sums.len();
+        self.sums[self.newest] = before + difference;
+        self.count = (self.count + 1).min(self.sums.len());
+        if self.count == self.sums.len() {
+            let ago = |ticks: usize| self.sums[(self.newest + self.sums.len() - ticks) % self.sums.len()];
+            let second = ago(0) - 2.0 * ago(LAG) + ago(2 * LAG);
+            self.position.take(second.x);
+            self.position.take(second.y);
+            self.heading.take(second.z);
+        }
+    }
+
+    /// The errors, 0 unless significant.
+    pub(super) fn deviation(&self) -> PoseDeviation {
+        PoseDeviation {
+            position: self.position.beyond(LEAST.0).unwrap_or(0.0),
+            heading: self.heading.beyond(LEAST.1).unwrap_or(0.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::robust_variance::tests::normals;
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+
+        #[test]
+        fn a_wander_is_found_on_a_platform_that_is_pushed(
+            values in normals(3600), position in 5e-5..5e-4_f64, heading in 5e-4..5e-3_f64, push in -1e-2..1e-2_f64,
+        ) {
+            let decay = (-1.0_f64 / 30.0).exp();
+            let mut noise = PoseNoise::new();
+            let mut error = Motion::zeros();
+            for values in values.chunks(3) {
+                let scale = Motion::new(position, position, heading) * (1.0 - decay * decay).sqrt();
+                let next = error * decay + scale.component_mul(&Motion::from_column_slice(values));
+                noise.take(Some(next - error + Motion::new(push, -push, push) / 30.0));
+                error = next;
+            }
+            let found = noise.deviation();
+            prop_assert!((0.6..1.6).contains(&(found.position / position)), "{found:?}");
+            prop_assert!((0.5..1.8).contains(&(found.heading / heading)), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn exact_poses_have_no_errors() {
+        let mut noise = PoseNoise::new();
+        for _ in 0..1000 {
+            noise.take(Some(Motion::new(1e-5, 2e-5, 1e-4)));
+        }
+        assert_eq!(noise.deviation(), PoseDeviation::default());
+    }
+}
