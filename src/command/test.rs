@@ -10,20 +10,20 @@ use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Jobs, WorldOption};
+use super::options::{Jobs, MismatchOptions, WorldOption};
 use super::output;
 use super::progress::Progress;
-use super::test_property::{self, CasesTried, Property, SearchOptions, Tried};
+use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
 use super::trials::{self, ReportFiles, inputs, make_directory, run_with_bar};
 use crate::diagnostic::{Diagnostic, Record, Source, Span, records};
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, LoadError, Loaded, Policy, PolicyText, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, with_settings};
 use crate::policy::{PolicyTest, TestScenes};
 use crate::property::Regressions;
 use crate::results::{Document, RunResult};
 use crate::trial::{Trial, violations};
 
-const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n  vibrissa test mine.fsm --cases 200 --world quasistatic --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n  vibrissa test mine.fsm --cases 200 --world quasistatic --out out\n  vibrissa test mine.fsm --mismatch scenarios/mismatch/plausible.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa test`.
 #[derive(Debug, Args)]
@@ -37,6 +37,8 @@ pub(super) struct TestArguments {
     filter: Option<String>,
     #[command(flatten)]
     world: WorldOption,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
     #[command(flatten)]
     search: SearchOptions,
     /// Write a picture and the result of every test's run into this directory, and of a property that fails also the scenario
@@ -93,7 +95,8 @@ impl Runs<'_> {
 pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     // An error in the last policy or scenario is reported before the first run.
     let mut files = CommandFiles::new();
-    let prepared = arguments.policies.iter().map(|path| prepare(path, arguments, &mut files));
+    let mismatch = arguments.mismatch.load(&mut files)?;
+    let prepared = arguments.policies.iter().map(|path| prepare(path, arguments, &mismatch, &mut files));
     let mut prepared = prepared.collect::<Result<Vec<_>, Failure>>()?;
     let tests = || prepared.iter().flat_map(|policy| &policy.tests);
     let count = tests().count();
@@ -135,7 +138,13 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
 }
 
 /// Reads a policy and prepares its tests.
-fn prepare<'a>(path: &Path, arguments: &'a TestArguments, files: &mut CommandFiles) -> Result<Prepared<'a>, Failure> {
+fn prepare<'a>(
+    path: &Path,
+    arguments: &'a TestArguments,
+    mismatch: &'a GivenMismatch,
+    files: &mut CommandFiles,
+) -> Result<Prepared<'a>, Failure> {
+    let simulated = Simulated { world: &arguments.world, mismatch, options: &arguments.mismatch };
     let Loaded { value: Policy { artifact, text }, hash } = load::policy(path, files)?;
     let text = text.ok_or_else(|| Failure::NoText { policy: path.to_owned() })?;
     output::diagnostics(&text.source, &text.warnings);
@@ -147,12 +156,12 @@ fn prepare<'a>(path: &Path, arguments: &'a TestArguments, files: &mut CommandFil
         tests.push(match &test.scenes {
             TestScenes::Scenario { file, span } => {
                 let file = (file.as_str(), *span);
-                let trial = trial_of(path, &text, file, &test, program, hash.clone(), arguments, files)?;
+                let trial = trial_of(path, &text, file, &test, program, hash.clone(), simulated, files)?;
                 Runs::Test(test, Box::new(trial))
             }
             TestScenes::Family { entry, ranges } => {
                 let scenes = (*entry, ranges.clone());
-                Runs::Property(Box::new(Property::new(test, scenes, program, hash.clone(), &arguments.world)?))
+                Runs::Property(Box::new(Property::new(test, scenes, program, hash.clone(), simulated)?))
             }
         });
     }
@@ -244,11 +253,11 @@ fn trial_of(
     test: &PolicyTest,
     mut program: Program,
     policy_hash: Sha256,
-    arguments: &TestArguments,
+    simulated: Simulated<'_>,
     files: &mut CommandFiles,
 ) -> Result<Trial, Failure> {
     let path = policy.parent().unwrap_or(Path::new("")).join(file);
-    let Loaded { value: scene, hash } = load::scenario(&path, files).map_err(|failure| match failure {
+    let Loaded { value: mut scene, mut hash } = load::scenario(&path, files).map_err(|failure| match failure {
         LoadError::Read { cause, .. } => {
             let message = format!("cannot read {}: {cause}", path.display());
             let fault = Diagnostic::error("P0702", message, span, "this scenario")
@@ -257,12 +266,13 @@ fn trial_of(
         }
         other => other,
     })?;
+    simulated.mismatch.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(&path))?;
     test.set(&mut program);
     output::warn_of_rates(&path, &scene.rig, &program);
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
     let inputs = inputs(&path, &hash.finalize(), &policy_hash.finalize());
-    Ok(Trial { world: arguments.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
+    Ok(Trial { world: simulated.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
 }
 
 /// Prints whether a test has passed. The outcome of a passed run was expected, even if it is a failure, and is not

@@ -1,7 +1,7 @@
 //! The properties of `vibrissa test`.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
 
 use super::failure::Failure;
-use super::options::{Jobs, WorldOption};
+use super::options::{Jobs, MismatchOptions, WorldOption};
 use super::output;
 use super::progress::Progress;
 use super::trials::{inputs, report_events};
@@ -21,7 +21,7 @@ use crate::catalogue::Entry;
 use crate::catalogue::common::SPEED;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::family::{Draw, Family, NoDraw};
-use crate::load::with_settings;
+use crate::load::{GivenMismatch, with_settings};
 use crate::policy::{ParameterRange, PolicyTest};
 use crate::property::{Case, Drawn, Regressions, Search, Shrunk, Verdict};
 use crate::results::RunResult;
@@ -41,6 +41,17 @@ pub(super) struct SearchOptions {
     pub(super) no_keep: bool,
 }
 
+/// What the command line says about the simulation.
+#[derive(Clone, Copy)]
+pub(super) struct Simulated<'a> {
+    /// The simulator.
+    pub(super) world: &'a WorldOption,
+    /// The mismatch of the array. All cases of a property have the same array, so that only the scene distinguishes them.
+    pub(super) mismatch: &'a GivenMismatch,
+    /// The options that gave the mismatch.
+    pub(super) options: &'a MismatchOptions,
+}
+
 /// A property of a policy that is ready to run.
 pub(super) struct Property<'a> {
     test: PolicyTest,
@@ -49,7 +60,7 @@ pub(super) struct Property<'a> {
     family: Family,
     program: Program,
     policy_hash: Sha256,
-    world: &'a WorldOption,
+    simulated: Simulated<'a>,
 }
 
 /// The cases of a property that were tried.
@@ -100,13 +111,13 @@ impl<'a> Property<'a> {
         (entry, ranges): (&'static Entry, Vec<ParameterRange>),
         mut program: Program,
         policy_hash: Sha256,
-        world: &'a WorldOption,
+        simulated: Simulated<'a>,
     ) -> Result<Self, Failure> {
         let family = Family::named(entry.name).ok_or_else(|| Failure::NoSuchFamily { name: entry.name.to_owned() })?;
         test.set(&mut program);
         let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
         let policy_hash = with_settings(policy_hash, settings);
-        Ok(Self { test, entry, ranges, family, program, policy_hash, world })
+        Ok(Self { test, entry, ranges, family, program, policy_hash, simulated })
     }
 
     pub(super) fn title(&self) -> &str {
@@ -211,12 +222,15 @@ impl<'a> Property<'a> {
     }
 
     fn trial(&self, draw: Draw) -> Result<Trial, Failure> {
-        let Draw { text, scene, speed } = draw;
+        let Draw { text, mut scene, speed } = draw;
+        let (path, mut scenario_hash) = (PathBuf::from(&scene.name), Sha256::new_with_prefix(text));
+        let Simulated { world, mismatch, .. } = self.simulated;
+        mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
         let mut program = self.program.clone();
         program.set(SPEED.name, speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
         let policy_hash = with_settings(self.policy_hash.clone(), [(SPEED.name, speed)].into_iter()).finalize();
-        let inputs = inputs(Path::new(&scene.name), &Sha256::digest(text), &policy_hash);
-        Ok(Trial { world: self.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
+        let inputs = inputs(&path, &scenario_hash.finalize(), &policy_hash);
+        Ok(Trial { world: world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
     }
 
     /// Runs a case that fails once more, for its report.
@@ -226,8 +240,11 @@ impl<'a> Property<'a> {
             case.values().iter().map(|(parameter, value)| format!("{} = {}", parameter.name, parameter.text(*value)));
         let all = all.collect::<Vec<_>>().join(", ");
         let speed = SPEED.text(draw.speed);
+        let array: String = (self.simulated.options.arguments())
+            .flat_map(|argument| [" ".to_owned(), argument.to_string_lossy().into_owned()])
+            .collect();
         let scenario = format!(
-            "# {}: {}({all})\n# vibrissa run FILE --policy POLICY --set \"speed={speed}\"\n{}",
+            "# {}: {}({all})\n# vibrissa run FILE --policy POLICY --set \"speed={speed}\"{array}\n{}",
             self.title(),
             self.entry.name,
             draw.text

@@ -83,3 +83,37 @@ fn a_sweep_passes_its_mismatch_to_its_workers_and_varies_single_keys() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("another version of the mismatch"), "{}", stderr(&refused));
 }
+
+/// The results of the tests of `policy`, by their titles.
+fn tests(policy: &str, arguments: &[&str]) -> Vec<Value> {
+    let test = ["test", policy, "--world", "quasistatic", "--no-keep", "--cases", "2", "--json"];
+    let output = vibrissa(&[&test, arguments].concat());
+    serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)))
+}
+
+#[test]
+fn tests_and_properties_run_with_the_mismatch() {
+    let directory = directory("mismatch_test");
+    let text = fs::read_to_string(Path::new(ROOT).join("policies/thesis.fsm")).unwrap();
+    let machine = text.split_once("\ntest ").map_or(text.as_str(), |(machine, _)| machine);
+    let policy = file(
+        &directory,
+        "policy.fsm",
+        &format!(
+            "{machine}\ntest \"disk\" in \"{ROOT}/scenarios/disk.yaml\" {{ expect run.error_mean < 0.2 mm }}\n\
+             property \"corners\" over convex-corner(angle = 90 deg, speed = 5 cm/s) {{ expect not (run.error_mean > 1 mm) }}\n"
+        ),
+    );
+    let soft = file(&directory, "soft.yaml", "stiffness: [-9 %, -8 %]\n");
+    let given = ["--mismatch", &soft, "--mismatch-seed", "4"];
+    let (ideal, wrong) = (tests(&policy, &[]), tests(&policy, &given));
+    let passed = |results: &[Value]| results.iter().map(|result| result["passed"] == true).collect::<Vec<_>>();
+    assert_eq!(passed(&ideal), [true, true]);
+    assert_eq!(passed(&wrong), [false, false]);
+    for result in &wrong {
+        assert_eq!(result["result"]["mismatch"], serde_json::json!({"file": soft, "seed": 4}));
+    }
+    // The command in the failing scenario has the same array.
+    let scenario = wrong[1]["property"]["scenario"].as_str().unwrap();
+    assert!(scenario.contains(&given.join(" ")), "{scenario}");
+}
