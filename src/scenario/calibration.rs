@@ -99,12 +99,22 @@ fn values(calibration: &Calibration) -> String {
         let _ = writeln!(text, "hinge_stiffness: {stiffness:?}");
     }
     if let Some(measured) = &calibration.measured {
-        let MeasuredWhisker { hinge_stiffness, length, direction, base, curvature, taper, offset, covariance } =
-            measured;
+        let MeasuredWhisker {
+            hinge_stiffness,
+            length,
+            direction,
+            base,
+            curvature,
+            taper,
+            offset,
+            friction,
+            covariance,
+        } = measured;
         let _ = write!(
             text,
             "measured:\n  hinge_stiffness: {hinge_stiffness:?}\n  length: {length:?}\n  direction: {direction:?}\n  \
-             base: {base:?}\n  curvature: {curvature:?}\n  taper: {taper:?}\n  offset: {offset:?}\n  covariance:\n"
+             base: {base:?}\n  curvature: {curvature:?}\n  taper: {taper:?}\n  offset: {offset:?}\n  \
+             friction: {friction:?}\n  covariance:\n"
         );
         for row in covariance {
             let _ = writeln!(text, "    - {row:?}");

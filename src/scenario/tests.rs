@@ -124,7 +124,7 @@ fn every_key_of_a_rig_can_be_set() {
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
      surface_roughness: 0.3 mm,
      angle_noise: 3 urad, angle_resolution: 4 mrad, forces: true, force_noise: 5 mN,
-     estimation: {lost_readings: false, offset: false, noise: false, delay: false, pose_noise: false}}";
+     estimation: {lost_readings: false, offset: false, noise: false, delay: false, friction: false, pose_noise: false}}";
     let expected = Rig {
         platform: Platform {
             tail_width: 0.01,

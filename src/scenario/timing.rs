@@ -61,12 +61,13 @@ pub(super) fn read_sensing(reader: &mut Reader<'_>, entry: &Entry, sensing: &mut
 /// Reads the switches of the estimates of perception.
 fn read_estimation(reader: &mut Reader<'_>, entry: &Entry, estimation: &mut Estimation) {
     let Some(mut fields) = Fields::of(reader, &entry.value, "the estimation", entry.key.span) else { return };
-    let Estimation { lost_readings, offset, noise, delay, pose_noise } = estimation;
+    let Estimation { lost_readings, offset, noise, delay, friction, pose_noise } = estimation;
     for (name, switch) in [
         ("lost_readings", lost_readings),
         ("offset", offset),
         ("noise", noise),
         ("delay", delay),
+        ("friction", friction),
         ("pose_noise", pose_noise),
     ] {
         if let Some(entry) = fields.entry(name)

@@ -9,6 +9,7 @@ use crate::geometry::{Contour, ContourSet, Pose, TunnelAxis};
 use crate::mismatch::{Mismatch, TrueArray};
 use crate::physics::Physics;
 use crate::solid::Solid;
+use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::rig::Rig;
 
 /// A scenario after reading and validation.
@@ -47,6 +48,18 @@ impl Scene {
     #[must_use]
     pub fn true_array(&self) -> Option<TrueArray> {
         self.mismatch.as_ref().map(|mismatch| mismatch.array(&self.rig))
+    }
+
+    /// The rig that perception assumes. With a mismatch, whiskers without a calibration have the tolerances of manufacture.
+    #[must_use]
+    pub fn assumed_rig(&self) -> Rig {
+        let mut rig = self.rig.clone();
+        if self.mismatch.is_some() {
+            for whisker in rig.whiskers.iter_mut().filter(|whisker| whisker.calibration.is_none()) {
+                whisker.calibration = Some(Calibration::untouched(whisker));
+            }
+        }
+        rig
     }
 
     /// True if the seed of a run changes it: measurements have noise, or the true array is drawn.

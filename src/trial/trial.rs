@@ -82,7 +82,7 @@ impl Trial {
     #[must_use]
     pub fn new(scene: Scene, program: Arc<Program>) -> Self {
         Self {
-            assumed_rig: scene.rig.clone(),
+            assumed_rig: scene.assumed_rig(),
             world: scene.world.unwrap_or_default().into(),
             seed: scene.seed,
             true_tips: false,

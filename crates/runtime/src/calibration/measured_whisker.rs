@@ -23,8 +23,10 @@ pub struct MeasuredWhisker {
     pub taper: f64,
     /// Reading of the whisker in the air (rad).
     pub offset: f64,
+    /// Coefficient of friction on the known object.
+    pub friction: f64,
     /// Covariance of the parameters above, in this order. The first one is the relative stiffness.
-    pub covariance: [[f64; Parameter::WHISKER]; Parameter::WHISKER],
+    pub covariance: [[f64; Parameter::KEPT]; Parameter::KEPT],
 }
 
 impl MeasuredWhisker {
@@ -55,6 +57,7 @@ impl MeasuredWhisker {
             && (1e-6..=1e6).contains(&self.hinge_stiffness)
             && (1e-3..=1.0).contains(&self.length)
             && (0.01..=2.0).contains(&self.taper)
+            && (0.0..=10.0).contains(&self.friction)
             && is_covariance
     }
 }

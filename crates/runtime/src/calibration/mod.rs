@@ -16,6 +16,8 @@ mod workspace;
 
 use serde::{Deserialize, Serialize};
 
+use crate::rig::Whisker;
+
 pub use angle_surface::AngleSurface;
 pub use contact_curve::ContactCurve;
 pub use contact_set::ContactSet;
@@ -59,6 +61,13 @@ impl Calibration {
     #[must_use]
     pub fn new(about: String) -> Self {
         Self { about, ..Self::default() }
+    }
+
+    /// The calibration of a whisker that nothing has touched: the rig with the tolerances of manufacture.
+    #[must_use]
+    pub fn untouched(whisker: &Whisker) -> Self {
+        let measured = Some(TouchFit::untouched(whisker).measured());
+        Self { measured, ..Self::new("the tolerances of manufacture".to_owned()) }
     }
 
     /// Checks that perception can use every value.

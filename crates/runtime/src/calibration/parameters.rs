@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::math;
 use crate::mechanics::{Obstacle, TouchMechanics};
 use crate::rig::Whisker;
 
@@ -34,7 +35,7 @@ pub enum Parameter {
 
 impl Parameter {
     /// All parameters, in the order of vectors and covariances. The first [`WHISKER`](Self::WHISKER) are properties of
-    /// the whisker.
+    /// the whisker, and a calibration keeps the first [`KEPT`](Self::KEPT).
     pub const ALL: [Self; COUNT] = [
         Self::Stiffness,
         Self::Length,
@@ -47,8 +48,10 @@ impl Parameter {
         Self::Friction,
         Self::Play,
     ];
-    /// Number of those that a calibration keeps.
+    /// Number of those that are properties of the whisker.
     pub const WHISKER: usize = 8;
+    /// Number of those that a calibration keeps: these, and the friction.
+    pub const KEPT: usize = 9;
 
     /// The name in messages and tables.
     #[must_use]
@@ -145,6 +148,7 @@ pub(super) fn measured(
         curvature: other.shaft.curvature,
         taper: other.shaft.taper(),
         offset: parameters[Parameter::Offset.index()],
+        friction: math::max(parameters[Parameter::Friction.index()], 0.0),
         covariance: std::array::from_fn(|row| std::array::from_fn(|column| covariance[(row, column)])),
     }
 }

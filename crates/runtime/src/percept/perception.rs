@@ -39,8 +39,9 @@ const UNDEFINED: Vector2 = Vector2::new(f64::NAN, f64::NAN);
 pub struct Perception {
     /// Time of the newest sample (s).
     time: f64,
-    /// Pose of the body in this tick, or unknown.
+    /// Pose of the body in this tick, and that at which the next command takes effect, or unknown.
     body: Pose,
+    at_effect: Pose,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
@@ -134,7 +135,7 @@ impl Perception {
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let calibration = whisker.calibration.as_ref();
             let (length, bend_sign) = (whisker.shaft.length, whisker.side());
-            let mechanics = || TipCurve::with_friction(&whisker, sensing.friction);
+            let mechanics = || TipCurve::with_friction(&whisker, whisker.friction(sensing));
             let too_few = || PerceptionError::NoSurface { whisker: whisker.name.clone(), estimator: kind };
             let curve = match kind {
                 Kind::Polynomial => match calibration.and_then(|calibration| calibration.polynomial.as_ref()) {
@@ -167,6 +168,7 @@ impl Perception {
         Ok(Self {
             time: 0.0,
             body: Pose::default(),
+            at_effect: Pose::default(),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             contours: Vec::new(),
@@ -239,8 +241,9 @@ impl Perception {
             }
         }
         let pose_deviation = self.motions.as_ref().map(Motions::pose_deviation).unwrap_or_default();
+        self.at_effect = self.motions.as_ref().map_or(self.body, |motions| motions.at_effect(self.measured));
         for whisker in &mut self.whiskers {
-            whisker.update(self.body, pose_deviation);
+            whisker.update(self.body, self.at_effect, pose_deviation);
         }
         for contour in &mut self.contours {
             contour.begin();
@@ -297,7 +300,7 @@ impl Perception {
     /// delay of commands it is [`pose`](Self::pose).
     #[must_use]
     pub fn pose_at_effect(&self) -> Pose {
-        self.motions.as_ref().map_or(self.body, |motions| motions.at_effect(self.measured))
+        self.at_effect
     }
 
     /// Measured time constant (s) of the servos, or that of the rig.
@@ -370,14 +373,14 @@ impl Senses for Perception {
 
     fn body(&self, quantity: BodyScalar) -> f64 {
         match quantity {
-            BodyScalar::Yaw => self.body.heading,
+            BodyScalar::Yaw => self.at_effect.heading,
             BodyScalar::Blocked => f64::from(u8::from(self.disturbance.is_blocked())),
             BodyScalar::Shortfall => self.disturbance.shortfall(),
         }
     }
 
     fn body_position(&self) -> Vector2 {
-        self.body.position.coords
+        self.at_effect.position.coords
     }
 
     fn whisker(&self, index: usize, quantity: WhiskerScalar) -> f64 {
@@ -386,7 +389,7 @@ impl Senses for Perception {
         match quantity {
             WhiskerScalar::BaseAngle => whisker().base_angle(),
             WhiskerScalar::Touching => truth(whisker().is_touching()),
-            WhiskerScalar::Yaw => whisker().yaw,
+            WhiskerScalar::Yaw => whisker().base_at_effect.heading,
             WhiskerScalar::Side => whisker().side,
             WhiskerScalar::Sense if whisker().is_touching() => whisker().base_angle().signum() * whisker().side,
             WhiskerScalar::Sense => 0.0,
@@ -403,7 +406,7 @@ impl Senses for Perception {
         match quantity {
             WhiskerVector::Tip => whisker().tip_world().coords,
             WhiskerVector::TipBase => whisker().tip_base(),
-            WhiskerVector::Base => whisker().base_world.coords,
+            WhiskerVector::Base => whisker().base_at_effect.position.coords,
             WhiskerVector::ContourTangent => self.contour(index).local().tangent().unwrap_or(UNDEFINED),
             WhiskerVector::ContourNormal => self.contour(index).at(0.0, ContourVector::Normal).unwrap_or(UNDEFINED),
             WhiskerVector::ContourEnd => self.contour(index).local().newest().map_or(UNDEFINED, |point| point.coords),

@@ -152,9 +152,9 @@ impl PlatformMotion {
         self.known = (self.known + self.steps).min(MEMORY);
     }
 
-    /// Compares the expected motions of this tick with the measured `pose`, which may be unknown. Returns the measured
-    /// motion beyond the expected one, if both are known.
-    pub(super) fn compare(&mut self, pose: Pose) -> Option<Motion> {
+    /// Compares the expected motions of this tick with the measured `pose`, which may be unknown. Returns the expected
+    /// motion and the measured one beyond it, if both are known.
+    pub(super) fn compare(&mut self, pose: Pose) -> Option<[Motion; 2]> {
         let before = std::mem::replace(&mut self.pose, pose);
         if !(before.is_finite() && pose.is_finite()) || self.known < MEMORY {
             return None;
@@ -172,7 +172,8 @@ impl PlatformMotion {
             }
         }
         self.estimate();
-        Some(measured - self.between(self.delay + self.period, self.delay))
+        let expected = self.between(self.delay + self.period, self.delay);
+        Some([expected, measured - expected])
     }
 
     /// Follows the servo and the delay with the smallest differences, if they are significant.

@@ -11,6 +11,8 @@ use super::robust_variance::RobustVariance;
 pub(super) struct PoseNoise {
     /// Sums of the differences at the newest ticks, and their number since the last gap.
     sums: [Motion; 2 * LAG + 1],
+    /// Expected motions of these ticks.
+    expected: [Motion; 2 * LAG + 1],
     newest: usize,
     count: usize,
     /// Variances of the position (m²) and of the heading (rad²).
@@ -30,6 +32,8 @@ pub(super) struct PoseDeviation {
 /// Ticks between the sums of a second difference. For an error with a correlation time of 1 s, at 30 Hz, it then has the
 /// standard deviation of the error.
 const LAG: usize = 8;
+/// Error of the time of an expected motion, as a share of a tick.
+const SHARE_OF_TICK: f64 = 0.15;
 /// Errors of the position (m) and of the heading (rad) that have no effect. Bent whiskers push a platform with exact poses
 /// by nearly as much.
 const LEAST: (f64, f64) = (3e-5, 2.5e-4);
@@ -39,6 +43,7 @@ impl PoseNoise {
     pub(super) fn new() -> Self {
         Self {
             sums: [Motion::zeros(); 2 * LAG + 1],
+            expected: [Motion::zeros(); 2 * LAG + 1],
             newest: 0,
             count: 0,
             position: RobustVariance::new(LEAST.0),
@@ -46,23 +51,36 @@ impl PoseNoise {
         }
     }
 
-    /// Adds the difference of the measured and the expected motion of a tick. `None` if one of them is unknown.
-    pub(super) fn take(&mut self, difference: Option<Motion>) {
-        let Some(difference) = difference else {
+    /// Adds the expected motion of a tick, and the difference of the measured motion from it. `None` if one of them is
+    /// unknown.
+    pub(super) fn take(&mut self, motions: Option<[Motion; 2]>) {
+        let Some([expected, difference]) = motions else {
             self.count = 0;
             return;
         };
         let before = self.sums[self.newest];
         self.newest = (self.newest + 1) % self.sums.len();
         self.sums[self.newest] = before + difference;
+        self.expected[self.newest] = expected;
         self.count = (self.count + 1).min(self.sums.len());
         if self.count == self.sums.len() {
-            let ago = |ticks: usize| self.sums[(self.newest + self.sums.len() - ticks) % self.sums.len()];
-            let second = ago(0) - 2.0 * ago(LAG) + ago(2 * LAG);
-            self.position.take(second.x);
-            self.position.take(second.y);
-            self.heading.take(second.z);
+            let second = self.second_difference(&self.sums);
+            // The expected motion is late or early by a share of a tick.
+            let by_time = SHARE_OF_TICK * self.second_difference(&self.expected);
+            if by_time.xy().norm() < 0.5 * LEAST.0 {
+                self.position.take(second.x);
+                self.position.take(second.y);
+            }
+            if by_time.z.abs() < 0.5 * LEAST.1 {
+                self.heading.take(second.z);
+            }
         }
+    }
+
+    /// The second difference of the values of the newest ticks.
+    fn second_difference(&self, values: &[Motion; 2 * LAG + 1]) -> Motion {
+        let ago = |ticks: usize| values[(self.newest + values.len() - ticks) % values.len()];
+        ago(0) - 2.0 * ago(LAG) + ago(2 * LAG)
     }
 
     /// The errors, 0 unless significant.
@@ -94,7 +112,7 @@ mod tests {
             for values in values.chunks(3) {
                 let scale = Motion::new(position, position, heading) * (1.0 - decay * decay).sqrt();
                 let next = error * decay + scale.component_mul(&Motion::from_column_slice(values));
-                noise.take(Some(next - error + Motion::new(push, -push, push) / 30.0));
+                noise.take(Some([Motion::zeros(), next - error + Motion::new(push, -push, push) / 30.0]));
                 error = next;
             }
             let found = noise.deviation();
@@ -107,7 +125,7 @@ mod tests {
     fn exact_poses_have_no_errors() {
         let mut noise = PoseNoise::new();
         for _ in 0..1000 {
-            noise.take(Some(Motion::new(1e-5, 2e-5, 1e-4)));
+            noise.take(Some([Motion::zeros(), Motion::new(1e-5, 2e-5, 1e-4)]));
         }
         assert_eq!(noise.deviation(), PoseDeviation::default());
     }

@@ -114,11 +114,11 @@ impl Sliding {
         Self {
             rest: ShaftRest::new(whisker, angle.deviation),
             tables: [TipTable::shared(whisker), TipTable::shared(&whisker.mirrored())],
-            bias: TipBias::new(whisker),
+            bias: TipBias::new(whisker, sensing),
             tip_radius: whisker.shaft.radius_at(1.0),
             length: whisker.shaft.length,
             usual_normal: whisker.usual_normal(),
-            friction_angle: math::atan(sensing.friction),
+            friction_angle: math::atan(whisker.friction(sensing)),
             angle,
             calm_samples,
             calm_for: 0,

@@ -7,14 +7,14 @@ use nalgebra::{SMatrix, SVector};
 use crate::calibration::Parameter;
 use crate::geometry::{Vector2, perpendicular, unit};
 use crate::math;
-use crate::rig::Whisker;
+use crate::rig::{Sensing, Whisker};
 
 use super::tip_table::{TipPosition, TipTable};
 
 /// The error of a tip that the errors of a whisker's measured parameters cause, to first order.
 #[derive(Debug, Clone)]
 pub(super) struct TipBias {
-    covariance: SMatrix<f64, { Parameter::WHISKER }, { Parameter::WHISKER }>,
+    covariance: SMatrix<f64, { Parameter::KEPT }, { Parameter::KEPT }>,
     length: f64,
     direction_body: f64,
     /// The tips of the whisker, of one that is more curved, and of one that is more tapered, for bends to the left.
@@ -26,17 +26,28 @@ pub(super) struct TipBias {
 /// Differences of curvature (1/m) and taper for derivatives.
 const CURVATURE: f64 = 0.02;
 const TAPER: f64 = -0.005;
+/// Standard deviation (rad) of an offset that is estimated during the run.
+const ESTIMATED_OFFSET: f64 = 5e-7;
 
 impl TipBias {
     /// Creates the errors of a whisker as perception models it. `None` if its parameters were not measured.
-    pub(super) fn new(whisker: &Whisker) -> Option<Self> {
+    pub(super) fn new(whisker: &Whisker, sensing: &Sensing) -> Option<Self> {
         let measured = whisker.calibration.as_ref()?.measured.as_ref()?;
         let mut curved = whisker.clone();
         curved.shaft.curvature += CURVATURE;
         let mut tapered = whisker.clone();
         tapered.shaft.tip_radius = Some(whisker.shaft.radius * (whisker.shaft.taper() + TAPER));
+        let mut covariance = SMatrix::<f64, { Parameter::KEPT }, { Parameter::KEPT }>::from_fn(|row, column| {
+            measured.covariance[row][column]
+        });
+        let offset = Parameter::Offset.index();
+        if sensing.estimation.offset && covariance[(offset, offset)] > math::square(ESTIMATED_OFFSET) {
+            let share = ESTIMATED_OFFSET / covariance[(offset, offset)].sqrt();
+            covariance.row_mut(offset).scale_mut(share);
+            covariance.column_mut(offset).scale_mut(share);
+        }
         Some(Self {
-            covariance: SMatrix::from_fn(|row, column| measured.covariance[row][column]),
+            covariance,
             length: whisker.shaft.length,
             direction_body: whisker.direction_body,
             table: TipTable::shared(whisker),
@@ -63,7 +74,7 @@ impl TipBias {
         };
         let by_angle = across.dot(&tip.by_angle);
         let base = unit(self.direction_body + bend_sign * normal);
-        let mut slope = SVector::<f64, { Parameter::WHISKER }>::zeros();
+        let mut slope = SVector::<f64, { Parameter::KEPT }>::zeros();
         let mut set = |parameter: Parameter, value: f64| slope[parameter.index()] = value;
         // The moment is the base angle times the stiffness. A longer shaft is a magnified one under a larger moment.
         set(Parameter::Stiffness, by_angle * base_angle);
@@ -74,6 +85,8 @@ impl TipBias {
         set(Parameter::Curvature, bend_sign * other(&self.curved, CURVATURE));
         set(Parameter::Taper, other(&self.tapered, TAPER));
         set(Parameter::Offset, -bend_sign * by_angle);
+        // Friction turns the force by its angle.
+        set(Parameter::Friction, -across.dot(&tip.by_direction) / (1.0 + math::square(math::tan(normal - force))));
         math::max(slope.dot(&(self.covariance * slope)), 0.0).sqrt()
     }
 }
@@ -91,7 +104,7 @@ mod tests {
 
     /// A whisker with the parameters of the rig and the variance of one of them.
     fn measured(whisker: &Whisker, only: usize, deviation: f64) -> Whisker {
-        let mut covariance = [[0.0; Parameter::WHISKER]; Parameter::WHISKER];
+        let mut covariance = [[0.0; Parameter::KEPT]; Parameter::KEPT];
         covariance[only][only] = deviation * deviation;
         let measured = MeasuredWhisker {
             hinge_stiffness: whisker.hinge.stiffness,
@@ -101,6 +114,7 @@ mod tests {
             curvature: whisker.shaft.curvature,
             taper: whisker.shaft.taper(),
             offset: 0.0,
+            friction: 0.0,
             covariance,
         };
         let calibration = Calibration { measured: Some(measured), ..Calibration::new(String::new()) };
@@ -108,17 +122,17 @@ mod tests {
     }
 
     /// The tip (m, body frame) of a whisker at a reading, on a surface with this normal (rad, body frame).
-    fn tip_body(whisker: &Whisker, offset: f64, reading: f64, normal: f64) -> Vector2 {
+    fn tip_body(whisker: &Whisker, [offset, friction]: [f64; 2], reading: f64, normal: f64) -> Vector2 {
         let (base_angle, side) = (reading - offset, reading.signum());
         let seen = if side < 0.0 { whisker.mirrored() } else { whisker.clone() };
-        let force = (side * (normal - whisker.direction_body)).rem_euclid(2.0 * PI);
+        let force = (side * (normal - whisker.direction_body)).rem_euclid(2.0 * PI) - friction.atan();
         let tip = TipTable::new(&seen).at(base_angle.abs(), force).unwrap().tip_base;
         whisker.base_body.coords + rotate(Vector2::new(tip.x, side * tip.y), whisker.direction_body)
     }
 
     #[test]
     fn the_bias_of_each_parameter_is_the_motion_of_the_tip_that_it_causes() {
-        let steps = [1e-3, 5e-5, 1e-3, 1e-4, 1e-4, 0.02, -1e-3, 1e-7];
+        let steps = [1e-3, 5e-5, 1e-3, 1e-4, 1e-4, 0.02, -1e-3, 1e-7, 1e-3];
         for (whisker, reading) in
             Rig::default().whiskers.iter().flat_map(|whisker| [(whisker, 3e-4_f64), (whisker, -2e-4)])
         {
@@ -128,7 +142,7 @@ mod tests {
             let tip = TipTable::new(whisker).at(reading.abs(), normal).unwrap();
             for (index, step) in steps.into_iter().enumerate() {
                 let mut other = whisker.clone();
-                let mut offset = 0.0;
+                let (mut offset, mut friction) = (0.0, 0.0);
                 match Parameter::ALL[index] {
                     Parameter::Stiffness => other.hinge.stiffness *= 1.0 + step,
                     Parameter::Length => other.shaft.length += step,
@@ -137,12 +151,13 @@ mod tests {
                     Parameter::BaseY => other.base_body.y += step,
                     Parameter::Curvature => other.shaft.curvature += step,
                     Parameter::Taper => other.shaft.tip_radius = Some(other.shaft.radius * (1.0 + step)),
-                    _ => offset = step,
+                    Parameter::Offset => offset = step,
+                    _ => friction = step,
                 }
-                let moved =
-                    tip_body(&other, offset, reading, normal_body) - tip_body(whisker, 0.0, reading, normal_body);
+                let moved = tip_body(&other, [offset, friction], reading, normal_body)
+                    - tip_body(whisker, [0.0; 2], reading, normal_body);
                 let expected = moved.dot(&unit(normal_body)).abs();
-                let bias = TipBias::new(&measured(whisker, index, step.abs())).unwrap();
+                let bias = TipBias::new(&measured(whisker, index, step.abs()), &Rig::default().sensing).unwrap();
                 let found = bias.deviation(reading.abs(), side, [normal, normal], &tip);
                 let name = Parameter::ALL[index].name();
                 assert!((found - expected).abs() < 0.03 * expected + 1e-9, "{name} {reading}: {found} {expected}");

@@ -63,9 +63,11 @@ pub(super) struct PerceivedWhisker {
     inertia: Inertia,
     sensing: Sensing,
     /// Position of the base (m, world frame).
-    pub(super) base_world: Point2,
+    base_world: Point2,
     /// Direction of the undeflected shaft (rad, world frame).
-    pub(super) yaw: f64,
+    yaw: f64,
+    /// Position of the base and direction of the undeflected shaft when the next command takes effect.
+    pub(super) base_at_effect: Pose,
     /// Local contour behind the tip.
     pub(super) contour: RecordedContour,
     /// The marks of this tick, in order.
@@ -107,6 +109,7 @@ impl PerceivedWhisker {
             sensing: sensing.clone(),
             base_world: Point2::origin(),
             yaw: 0.0,
+            base_at_effect: Pose::default(),
             contour: RecordedContour::new(Keypoints::default()),
             marks: Default::default(),
         }
@@ -171,9 +174,11 @@ impl PerceivedWhisker {
         Pose { position, heading: body.heading + self.direction_body }
     }
 
-    /// Updates pose and contact of the whisker, with the platform at `body` and these errors of poses.
-    pub(super) fn update(&mut self, body: Pose, pose_deviation: PoseDeviation) {
+    /// Updates pose and contact of the whisker, with the platform at `body` and these errors of poses. The platform is at
+    /// `at_effect` when the next command takes effect.
+    pub(super) fn update(&mut self, body: Pose, at_effect: Pose, pose_deviation: PoseDeviation) {
         let base = self.base(body);
+        self.base_at_effect = self.base(at_effect);
         (self.base_world, self.yaw) = (base.position, base.heading);
         let base_angle = self.base_angle();
         self.contact = if base_angle.is_nan() { None } else { self.estimator.contact(base_angle, base) };
@@ -231,7 +236,7 @@ impl PerceivedWhisker {
     /// Contact position of the tip at another base angle (m, frame of the base). The surface keeps its estimated
     /// direction, or is parallel to the heading if the direction is unknown.
     pub(super) fn tip_at(&self, base_angle: f64) -> Vector2 {
-        let touched = self.contact.and_then(|_| self.estimator.contact_at(base_angle, self.yaw));
+        let touched = self.contact.and_then(|_| self.estimator.contact_at(base_angle, self.base_at_effect.heading));
         touched.unwrap_or_else(|| self.curve.contact_base(base_angle))
     }
 
@@ -249,7 +254,8 @@ impl PerceivedWhisker {
     pub(super) fn tip_world(&self) -> Point2 {
         match &self.contact {
             Some(contact) => contact.point_world,
-            None => self.base_world + rotate(self.tip_base(), self.yaw),
+            None if self.is_touching() => self.base_world + rotate(self.tip_base(), self.yaw),
+            None => self.base_at_effect.position + rotate(self.tip_base(), self.base_at_effect.heading),
         }
     }
 

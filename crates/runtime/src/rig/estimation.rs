@@ -15,17 +15,20 @@ pub struct Estimation {
     pub noise: bool,
     /// Delays of poses and commands and the servos are measured, and compensated.
     pub delay: bool,
+    /// The friction that a calibration has measured is assumed, unless the rig states one.
+    pub friction: bool,
     /// Errors of measured poses are measured, and increase the uncertainty of contacts.
     pub pose_noise: bool,
 }
 
 impl Estimation {
     /// No estimate. Perception then believes what the rig states.
-    pub const OFF: Self = Self { lost_readings: false, offset: false, noise: false, delay: false, pose_noise: false };
+    pub const OFF: Self =
+        Self { lost_readings: false, offset: false, noise: false, delay: false, friction: false, pose_noise: false };
 }
 
 impl Default for Estimation {
     fn default() -> Self {
-        Self { lost_readings: true, offset: true, noise: true, delay: true, pose_noise: true }
+        Self { lost_readings: true, offset: true, noise: true, delay: true, friction: true, pose_noise: true }
     }
 }

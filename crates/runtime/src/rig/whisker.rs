@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use super::{Hinge, Shaft};
+use super::{Hinge, Sensing, Shaft};
 use crate::calibration::Calibration;
 use crate::geometry::{Pose, coordinates};
 
@@ -66,6 +66,16 @@ impl Whisker {
             }
         }
         whisker
+    }
+
+    /// The coefficient of friction that perception assumes: that of the rig, or the one that a calibration has measured.
+    #[must_use]
+    pub fn friction(&self, sensing: &Sensing) -> f64 {
+        let measured = self.calibration.as_ref().and_then(|calibration| calibration.measured.as_ref());
+        match measured {
+            Some(measured) if sensing.estimation.friction && sensing.friction == 0.0 => measured.friction,
+            _ => sensing.friction,
+        }
     }
 
     /// A whisker whose bends to the left are the mirror images of this one's bends to the right.
