@@ -30,6 +30,8 @@ pub(super) enum Owner {
     Value(Type),
     /// This symbol, a state.
     State(usize),
+    /// This symbol, an enumeration.
+    Enumeration(usize),
 }
 
 /// Resolves every word of `tokens`. They are the tokens of the first part of a source, without comments. `imports` are
@@ -45,6 +47,10 @@ pub(super) fn resolve(
     let mut resolved = Resolved::default();
     // The operand that ends with the previous token, and the operand before each open parenthesis.
     let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
+    // For each open parenthesis, the last operand in it that has members. It is the owner behind a group.
+    let mut inside: Vec<Option<Owner>> = Vec::new();
+    // The symbol before each open parenthesis, and the last symbol.
+    let (mut called, mut last_symbol): (Vec<Option<usize>>, Option<usize>) = (Vec::new(), None);
     // End of the current type name.
     let mut type_end = 0;
     // The family whose ranges are being read.
@@ -59,10 +65,11 @@ pub(super) fn resolve(
         let is_before = |text: &str| before.is_some_and(|before| before.text == text);
         let is_word = matches!(token.kind, TokenKind::Name | TokenKind::Keyword);
         let meaning = match token.kind {
-            _ if is_word && is_before(":") => {
+            _ if is_word && is_before(":") && names.is_declaration(tokens, index) => {
                 let named = type_name(tokens, index);
                 type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
-                named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type)
+                let built_in = named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type);
+                built_in.or_else(|| names.enumeration(token.text).map(|index| Meaning::Symbol(index, Role::Reads)))
             }
             TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
             TokenKind::Name if is_before("mark") || is_before("needs") => {
@@ -84,8 +91,20 @@ pub(super) fn resolve(
             }
             TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
                 Owner::Value(owner) => member(owner, token.text),
+                Owner::Enumeration(owner) => {
+                    let is_it = |symbol: &Symbol| symbol.owner == Some(owner) && symbol.name == token.text;
+                    symbols.iter().position(is_it).map(|choice| Meaning::Symbol(choice, Role::Reads))
+                }
                 Owner::State(_) => names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads)),
             }),
+            TokenKind::Name
+                if tokens.get(index + 1).is_some_and(|next| next.is(":"))
+                    && let Some(&Some(callee)) = called.last()
+                    && let Some(argument) = argument_of(symbols, callee, token.text) =>
+            {
+                let is_declared = symbols[argument].span == span_of(*token);
+                Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
+            }
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(span_of(*token), token.text, role)
@@ -99,6 +118,18 @@ pub(super) fn resolve(
         if token.is("{") {
             family = None;
         }
+        match token.text {
+            "(" if token.kind == TokenKind::Mark => called.push(last_symbol),
+            ")" if token.kind == TokenKind::Mark => {
+                called.pop();
+            }
+            "{" | "}" if token.kind == TokenKind::Mark => called.clear(),
+            _ => {}
+        }
+        last_symbol = match meaning {
+            Some(Meaning::Symbol(symbol, _)) => Some(symbol),
+            _ => None,
+        };
         operand = match (token.kind, token.text, meaning) {
             (TokenKind::Mark, ".", _) => {
                 resolved.owners.extend(operand.map(|owner| (token.start, owner)));
@@ -107,18 +138,30 @@ pub(super) fn resolve(
             (TokenKind::Mark, "(", _) => {
                 let is_call = before.is_some_and(|before| before.kind == TokenKind::Name);
                 calls.push(operand.filter(|_| is_call));
+                inside.push(None);
                 None
             }
-            (TokenKind::Mark, ")", _) => calls.pop().flatten(),
+            (TokenKind::Mark, ")", _) => {
+                let last = inside.pop().flatten();
+                calls.pop().flatten().or(last)
+            }
             (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
             (TokenKind::Name, "run", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Run)),
             (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::State => {
                 Some(Owner::State(symbol))
             }
+            (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::Enumeration => {
+                Some(Owner::Enumeration(symbol))
+            }
             (_, _, Some(Meaning::Symbol(symbol, _))) => symbols[symbol].r#type.map(Owner::Value),
             (_, _, Some(Meaning::Member(_, member))) => Some(Owner::Value(member.r#type)),
             _ => None,
         };
+        if let (Some(last), Some(Owner::Value(owner))) = (inside.last_mut(), operand)
+            && !builtins::members(owner).is_empty()
+        {
+            *last = operand;
+        }
         if is_word || token.kind == TokenKind::Unit {
             resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
@@ -161,6 +204,13 @@ fn member(owner: Type, name: &str) -> Option<Meaning> {
     Some(Meaning::Member(owner, *member))
 }
 
+/// The argument of a law, a derived value or a state.
+fn argument_of(symbols: &[Symbol], callee: usize, name: &str) -> Option<usize> {
+    let arguments = symbols.iter().skip(callee + 1).take_while(|symbol| symbol.kind == SymbolKind::Argument);
+    let found = arguments.enumerate().find(|(_, symbol)| symbol.owner == Some(callee) && symbol.name == name);
+    found.map(|(index, _)| callee + 1 + index)
+}
+
 /// The names that are visible at a position that moves through the text.
 struct Names<'s> {
     symbols: &'s [Symbol],
@@ -174,12 +224,18 @@ struct Names<'s> {
 
 impl<'s> Names<'s> {
     fn new(symbols: &'s [Symbol]) -> Self {
-        // The machine's name cannot be referred to.
-        let mut order: Vec<usize> =
-            (0..symbols.len()).filter(|&index| symbols[index].kind != SymbolKind::Machine).collect();
+        // The machine's name cannot be referred to, and a value of an enumeration only as its member.
+        let is_unknown_alone = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Machine | SymbolKind::Choice);
+        let mut order: Vec<usize> = (0..symbols.len()).filter(|&index| !is_unknown_alone(&symbols[index])).collect();
         order.sort_by_key(|&index| symbols[index].visible.start);
         let declared = symbols.iter().enumerate().map(|(index, symbol)| (symbol.span, index)).collect();
         Self { symbols, declared, order, begun: 0, known: HashMap::new() }
+    }
+
+    /// True if the `:` before a token follows the name of a declared argument.
+    fn is_declaration(&self, tokens: &[Token<'_>], index: usize) -> bool {
+        let name = index.checked_sub(2).and_then(|name| tokens.get(name));
+        name.is_some_and(|name| self.declared.contains_key(&span_of(*name)))
     }
 
     fn advance(&mut self, at: usize) {
@@ -211,6 +267,14 @@ impl<'s> Names<'s> {
     }
 
     fn state(&self, name: &str) -> Option<usize> {
-        self.known.get(name)?.iter().copied().rfind(|&index| self.symbols[index].kind == SymbolKind::State)
+        self.of_kind(name, SymbolKind::State)
+    }
+
+    fn enumeration(&self, name: &str) -> Option<usize> {
+        self.of_kind(name, SymbolKind::Enumeration)
+    }
+
+    fn of_kind(&self, name: &str, kind: SymbolKind) -> Option<usize> {
+        self.known.get(name)?.iter().copied().rfind(|&index| self.symbols[index].kind == kind)
     }
 }
