@@ -259,7 +259,6 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::apart => (0, "`apart`"),
         Rule::spanning => (0, "`over`"),
         Rule::family => (0, "a family of scenes such as `convex-corner`"),
-        Rule::named => return None,
         Rule::name | Rule::argument | Rule::range => (0, "a name"),
         Rule::target => (0, "the name of a state"),
         Rule::type_name => (0, "a type"),

@@ -14,7 +14,7 @@ use vibrissa_runtime::units::Dimension;
 use super::context::{Context, Expected, Level, context};
 use super::import::{exports, heading};
 use super::keyword::{Keyword, Position, keyword, keywords_at};
-use super::resolve::Owner;
+use super::operands::Owner;
 use super::symbol::{Symbol, SymbolKind};
 use super::{Index, text};
 

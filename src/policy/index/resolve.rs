@@ -12,6 +12,7 @@ use vibrissa_runtime::units::parse_unit;
 use super::declare::span_of;
 use super::import::Import;
 use super::keyword::{Keyword, Position, keyword};
+use super::operands::{Operands, Owner};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
 
@@ -21,17 +22,6 @@ pub(super) struct Resolved {
     pub(super) uses: Vec<Use>,
     /// The owner before each `.`, if it is known, by the byte of the `.`.
     pub(super) owners: HashMap<usize, Owner>,
-}
-
-/// The operand before a `.`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Owner {
-    /// A value of this type.
-    Value(Type),
-    /// This symbol, a state.
-    State(usize),
-    /// This symbol, an enumeration.
-    Enumeration(usize),
 }
 
 /// Resolves every word of `tokens`. They are the tokens of the first part of a source, without comments. `imports` are
@@ -45,12 +35,7 @@ pub(super) fn resolve(
 ) -> Resolved {
     let mut names = Names::new(symbols);
     let mut resolved = Resolved::default();
-    // The operand that ends with the previous token, and the operand before each open parenthesis.
-    let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
-    // For each open parenthesis, the last operand in it that has members. It is the owner behind a group.
-    let mut inside: Vec<Option<Owner>> = Vec::new();
-    // The symbol before each open parenthesis, and the last symbol.
-    let (mut called, mut last_symbol): (Vec<Option<usize>>, Option<usize>) = (Vec::new(), None);
+    let mut operands = Operands::new(symbols);
     // End of the current type name.
     let mut type_end = 0;
     // The family whose ranges are being read.
@@ -89,7 +74,7 @@ pub(super) fn resolve(
             TokenKind::Name if let Some(family) = family => {
                 Entry::parameter(family, token.text).map(Meaning::FamilyParameter)
             }
-            TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
+            TokenKind::Name if is_before(".") => operands.last.and_then(|owner| match owner {
                 Owner::Value(owner) => member(owner, token.text),
                 Owner::Enumeration(owner) => {
                     let is_it = |symbol: &Symbol| symbol.owner == Some(owner) && symbol.name == token.text;
@@ -99,8 +84,7 @@ pub(super) fn resolve(
             }),
             TokenKind::Name
                 if tokens.get(index + 1).is_some_and(|next| next.is(":"))
-                    && let Some(&Some(callee)) = called.last()
-                    && let Some(argument) = argument_of(symbols, callee, token.text) =>
+                    && let Some(argument) = operands.argument(token.text) =>
             {
                 let is_declared = symbols[argument].span == span_of(*token);
                 Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
@@ -118,50 +102,10 @@ pub(super) fn resolve(
         if token.is("{") {
             family = None;
         }
-        match token.text {
-            "(" if token.kind == TokenKind::Mark => called.push(last_symbol),
-            ")" if token.kind == TokenKind::Mark => {
-                called.pop();
-            }
-            "{" | "}" if token.kind == TokenKind::Mark => called.clear(),
-            _ => {}
+        if token.is(".") {
+            resolved.owners.extend(operands.last.map(|owner| (token.start, owner)));
         }
-        last_symbol = match meaning {
-            Some(Meaning::Symbol(symbol, _)) => Some(symbol),
-            _ => None,
-        };
-        operand = match (token.kind, token.text, meaning) {
-            (TokenKind::Mark, ".", _) => {
-                resolved.owners.extend(operand.map(|owner| (token.start, owner)));
-                operand
-            }
-            (TokenKind::Mark, "(", _) => {
-                let is_call = before.is_some_and(|before| before.kind == TokenKind::Name);
-                calls.push(operand.filter(|_| is_call));
-                inside.push(None);
-                None
-            }
-            (TokenKind::Mark, ")", _) => {
-                let last = inside.pop().flatten();
-                calls.pop().flatten().or(last)
-            }
-            (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
-            (TokenKind::Name, "run", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Run)),
-            (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::State => {
-                Some(Owner::State(symbol))
-            }
-            (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::Enumeration => {
-                Some(Owner::Enumeration(symbol))
-            }
-            (_, _, Some(Meaning::Symbol(symbol, _))) => symbols[symbol].r#type.map(Owner::Value),
-            (_, _, Some(Meaning::Member(_, member))) => Some(Owner::Value(member.r#type)),
-            _ => None,
-        };
-        if let (Some(last), Some(Owner::Value(owner))) = (inside.last_mut(), operand)
-            && !builtins::members(owner).is_empty()
-        {
-            *last = operand;
-        }
+        operands.advance(before, *token, meaning);
         if is_word || token.kind == TokenKind::Unit {
             resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
@@ -202,13 +146,6 @@ fn is_fitted(text: &str, next: Option<&Token<'_>>) -> bool {
 fn member(owner: Type, name: &str) -> Option<Meaning> {
     let member = builtins::members(owner).iter().find(|member| member.name == name)?;
     Some(Meaning::Member(owner, *member))
-}
-
-/// The argument of a law, a derived value or a state.
-fn argument_of(symbols: &[Symbol], callee: usize, name: &str) -> Option<usize> {
-    let arguments = symbols.iter().skip(callee + 1).take_while(|symbol| symbol.kind == SymbolKind::Argument);
-    let found = arguments.enumerate().find(|(_, symbol)| symbol.owner == Some(callee) && symbol.name == name);
-    found.map(|(index, _)| callee + 1 + index)
 }
 
 /// The names that are visible at a position that moves through the text.

@@ -33,28 +33,28 @@ impl Callee<'_> {
         arguments: &'f [Argument],
         values: &'f [Expression],
         span: Span,
-    ) -> Result<Vec<Given<'f>>, Diagnostic> {
+    ) -> Result<Vec<Given<'f>>, Box<Diagnostic>> {
         let what = self.what;
         let in_order = values.iter().take_while(|value| !matches!(value.kind, Kind::Named { .. })).count();
         if in_order > arguments.len() {
-            return Err(self.count(arguments, values.len(), span));
+            return Err(Box::new(self.count(arguments, values.len(), span)));
         }
         let mut given: Vec<Option<Given<'f>>> = values[..in_order].iter().map(|value| Some(at_call(value))).collect();
         given.resize(arguments.len(), None);
         for value in &values[in_order..] {
             let Kind::Named { name, value: inner } = &value.kind else {
                 let message = "a value without a name follows one with a name";
-                return Err(Diagnostic::error("P0304", message, value.span, "has no name"));
+                return Err(Box::new(Diagnostic::error("P0304", message, value.span, "has no name")));
             };
             let Some(index) = arguments.iter().position(|argument| argument.name.text == name.text) else {
                 let message = format!("{what} has no argument `{}`", name.text);
                 let diagnostic = Diagnostic::error("P0304", message, name.span, "unknown argument");
                 let known = arguments.iter().map(|argument| argument.name.text.as_str());
-                return Err(did_you_mean(diagnostic, &name.text, known));
+                return Err(Box::new(did_you_mean(diagnostic, &name.text, known)));
             };
             if given[index].replace(at_call(inner)).is_some() {
                 let message = format!("the argument `{}` has two values", name.text);
-                return Err(Diagnostic::error("P0304", message, name.span, "given again"));
+                return Err(Box::new(Diagnostic::error("P0304", message, name.span, "given again")));
             }
         }
         for (given, argument) in given.iter_mut().zip(arguments) {
@@ -65,11 +65,11 @@ impl Callee<'_> {
         match missing {
             None => Ok(given.into_iter().flatten().collect()),
             Some(_) if in_order == values.len() && !has_defaults(arguments) => {
-                Err(self.count(arguments, values.len(), span))
+                Err(Box::new(self.count(arguments, values.len(), span)))
             }
             Some(argument) => {
                 let message = format!("{what} needs a value for `{}`", argument.name.text);
-                Err(Diagnostic::error("P0304", message, span, self.label))
+                Err(Box::new(Diagnostic::error("P0304", message, span, self.label)))
             }
         }
     }

@@ -95,7 +95,7 @@ pub(crate) fn default(name: &str, r#type: Type) -> Option<Expression> {
     let number: usize = name[1..].parse().unwrap();
     let quantity = |number, unit| Some(Expression::Quantity(number, unit));
     match r#type {
-        _ if number % 2 > 0 => None,
+        _ if !number.is_multiple_of(2) => None,
         Type::Number => quantity("2", ""),
         Type::Length => quantity("3.7", "mm"),
         Type::Time => quantity("100", "ms"),
