@@ -106,6 +106,8 @@ struct ParameterSummary {
     name: String,
     value: String,
     range: Option<[String; 2]>,
+    /// The names of the values that the parameter can have. Empty for a number.
+    choices: Vec<String>,
     /// Description from the policy. It may be empty.
     description: String,
 }
@@ -233,8 +235,9 @@ fn summary(artifact: &Artifact) -> Summary {
     let Artifact { program, positions: places, .. } = artifact;
     let parameter = |(parameter, &value): (&vibrissa_runtime::machine::Parameter, &f64)| ParameterSummary {
         name: parameter.name.clone(),
-        value: format_si(value, parameter.dimension),
-        range: parameter.range.map(|(low, high)| [low, high].map(|end| format_si(end, parameter.dimension))),
+        value: parameter.text(value),
+        range: parameter.range.map(|(low, high)| [low, high].map(|end| parameter.text(end))),
+        choices: parameter.choices.clone(),
         description: parameter.description.clone(),
     };
     let state = |(index, state): (usize, &State)| StateSummary {
@@ -292,8 +295,12 @@ fn describe(file: &str, machine: &Summary) -> String {
         cells.into_iter().chain(has_failsafe.then_some(failsafe)).collect()
     });
     let states = Table::new(4, headings, states);
-    let parameters = machine.parameters.iter().map(|ParameterSummary { name, value, range, description }| {
-        let range = range.as_ref().map(|[low, high]| format!("{low} .. {high}")).unwrap_or_default();
+    let parameters = machine.parameters.iter().map(|ParameterSummary { name, value, range, choices, description }| {
+        let range = match range {
+            _ if !choices.is_empty() => choices.join(" or "),
+            Some([low, high]) => format!("{low} .. {high}"),
+            None => String::new(),
+        };
         vec![name.clone(), value.clone(), range, description.clone()]
     });
     let parameters = Table::new(4, ["parameter", "value", "range", "description"], parameters);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Once;
 
 use clap::{Args, ValueEnum};
-use vibrissa_runtime::machine::SetError;
+use vibrissa_runtime::machine::{ParameterValue, SetError};
 use vibrissa_runtime::units::{Quantity, parse_quantity};
 
 use super::failure::Failure;
@@ -152,7 +152,7 @@ impl MismatchOptions {
 /// Values of policy parameters.
 #[derive(Debug, Args)]
 pub(super) struct Settings {
-    /// Set a parameter of the policy, with its unit: --set "speed=80 mm/s"
+    /// Set a parameter of the policy: --set "speed=80 mm/s", --set trust=false
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
     settings: Vec<Setting>,
 }
@@ -161,7 +161,7 @@ pub(super) struct Settings {
 #[derive(Debug, Clone)]
 struct Setting {
     name: String,
-    value: Quantity,
+    value: ParameterValue,
 }
 
 impl Settings {
@@ -175,26 +175,38 @@ impl Settings {
     /// # Errors
     /// [`SetError`] if the policy does not have such a parameter, or if the value is out of its range.
     pub(super) fn of(&self, mut policy: Loaded<Policy>) -> Result<Loaded<Policy>, SetError> {
+        let program = &mut policy.value.artifact.program;
+        let mut settings = Vec::with_capacity(self.settings.len());
         for Setting { name, value } in &self.settings {
-            policy.value.artifact.program.set(name, value.value_si, value.dimension)?;
+            settings.push((name.as_str(), program.set_value(name, value)?));
         }
-        let settings = self.settings.iter().map(|setting| (setting.name.as_str(), setting.value.value_si));
-        Ok(Loaded { hash: with_settings(policy.hash, settings), ..policy })
+        Ok(Loaded { hash: with_settings(policy.hash, settings.into_iter()), ..policy })
     }
 }
 
 fn parse_setting(text: &str) -> Result<Setting, String> {
+    let (name, value) = name_and_value(text)?;
+    let value = ParameterValue::parse(value).map_err(|error| format!("{error}; {}", error.hint()))?;
+    Ok(Setting { name: name.to_owned(), value })
+}
+
+fn parse_family_value(text: &str) -> Result<(String, Quantity), String> {
+    let (name, value) = name_and_value(text)?;
+    let value = parse_quantity(value).map_err(|error| format!("{error}; {}", error.hint()))?;
+    Ok((name.to_owned(), value))
+}
+
+fn name_and_value(text: &str) -> Result<(&str, &str), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as \"speed=80 mm/s\"")?;
-    let value = parse_quantity(value.trim()).map_err(|error| format!("{error}; {}", error.hint()))?;
-    Ok(Setting { name: name.trim().to_owned(), value })
+    Ok((name.trim(), value.trim()))
 }
 
 /// Values of parameters of families.
 #[derive(Debug, Args)]
 pub(super) struct FamilyValues {
     /// Set a parameter of the families, with its unit: --with "angle=40 deg". The others are sampled
-    #[arg(long = "with", value_name = "NAME=VALUE", value_parser = parse_setting)]
-    values: Vec<Setting>,
+    #[arg(long = "with", value_name = "NAME=VALUE", value_parser = parse_family_value)]
+    values: Vec<(String, Quantity)>,
 }
 
 impl FamilyValues {
@@ -203,7 +215,7 @@ impl FamilyValues {
     /// # Errors
     /// [`Failure`] if the family does not have such a parameter, or not such a value.
     pub(super) fn of(&self, family: &Family) -> Result<Values, Failure> {
-        let value = |Setting { name, value }: &Setting| {
+        let value = |(name, value): &(String, Quantity)| {
             let fault = |cause| Failure::FamilyValue { family: family.name, name: name.clone(), cause };
             let parameter = family.parameters.iter().find(|parameter| parameter.name == name);
             let Some(parameter) = parameter else {

@@ -44,6 +44,8 @@ fn kind(kind: CandidateKind) -> CompletionItemKind {
         CandidateKind::Type => CompletionItemKind::Struct,
         CandidateKind::Module | CandidateKind::Family => CompletionItemKind::Module,
         CandidateKind::Unit => CompletionItemKind::Unit,
+        CandidateKind::Symbol(SymbolKind::Enumeration) => CompletionItemKind::Enum,
+        CandidateKind::Symbol(SymbolKind::Choice) => CompletionItemKind::EnumMember,
         CandidateKind::Symbol(SymbolKind::State) => CompletionItemKind::Class,
         CandidateKind::Symbol(SymbolKind::Law) => CompletionItemKind::Method,
         CandidateKind::Symbol(SymbolKind::Parameter | SymbolKind::Machine) => CompletionItemKind::Constant,

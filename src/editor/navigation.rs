@@ -86,6 +86,8 @@ fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
     Some(match kind {
         SymbolKind::Whisker | SymbolKind::Contour => LspSymbolKind::Field,
         SymbolKind::Parameter => LspSymbolKind::Constant,
+        SymbolKind::Enumeration => LspSymbolKind::Enum,
+        SymbolKind::Choice => LspSymbolKind::EnumMember,
         SymbolKind::Derived => LspSymbolKind::Variable,
         SymbolKind::Law => LspSymbolKind::Function,
         SymbolKind::State => LspSymbolKind::Class,

@@ -27,6 +27,7 @@ pub(super) struct File {
     /// `contour of … points … apart`: the keypoints of the whiskers' contours.
     pub(super) keypoints: Vec<Keypoints>,
     pub(super) contours: Vec<Contour>,
+    pub(super) enumerations: Vec<Enumeration>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,
@@ -43,6 +44,14 @@ pub(super) struct File {
     /// `failsafe -> target`
     pub(super) failsafes: Vec<Target>,
     pub(super) tests: Vec<Test>,
+}
+
+impl File {
+    /// The names that other files may use.
+    pub(super) fn exports(&self) -> impl Iterator<Item = &Name> {
+        let derived = self.derived.iter().map(|item| &item.name);
+        derived.chain(self.laws.iter().map(|item| &item.name)).chain(self.enumerations.iter().map(|item| &item.name))
+    }
 }
 
 /// `use std.swipe`, `use "corner.fsm" (name, name)`
@@ -95,12 +104,39 @@ pub(super) struct Keypoints {
     pub(super) span: Span,
 }
 
+/// `type name = value or value`
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Enumeration {
+    pub(super) name: Name,
+    pub(super) values: Vec<Name>,
+}
+
 /// `param name = value in low .. high`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Parameter {
     pub(super) name: Name,
-    pub(super) value: Bound,
+    pub(super) value: Setting,
     pub(super) range: Option<(Bound, Bound)>,
+}
+
+/// The value of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Setting {
+    Number(Bound),
+    Truth(bool, Span),
+    /// An enumeration and one of its values.
+    Choice(Name, Name),
+}
+
+impl Setting {
+    /// Span of the value.
+    pub(super) fn span(&self) -> Span {
+        match self {
+            Self::Number(bound) => bound.span,
+            Self::Truth(_, span) => *span,
+            Self::Choice(of, value) => of.span.to(value.span),
+        }
+    }
 }
 
 /// A quantity with a sign.
@@ -119,11 +155,12 @@ pub(super) struct Quantity {
     pub(super) span: Span,
 }
 
-/// `name: type`
+/// `name: type = default`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Argument {
     pub(super) name: Name,
     pub(super) type_name: TypeName,
+    pub(super) default: Option<Expression>,
 }
 
 /// `length`, `vector of length`, `angular_speed / length`
@@ -216,7 +253,7 @@ pub(super) struct Target {
 pub(super) struct Test {
     pub(super) title: Name,
     pub(super) scenes: TestScenes,
-    pub(super) settings: Vec<(Name, Bound)>,
+    pub(super) settings: Vec<(Name, Setting)>,
     pub(super) expectations: Vec<Expression>,
 }
 
@@ -318,6 +355,17 @@ pub(super) enum Kind {
     Norm(Box<Expression>),
     Negate(Box<Expression>),
     Not(Box<Expression>),
+    /// `name: value`, only among the values of a call.
+    Named {
+        name: Name,
+        value: Box<Expression>,
+    },
+    /// `if condition then value else otherwise`
+    If {
+        condition: Box<Expression>,
+        value: Box<Expression>,
+        otherwise: Box<Expression>,
+    },
     Binary {
         operator: Binary,
         left: Box<Expression>,

@@ -26,7 +26,7 @@ pub fn with_defaults(source: &Source, values: &BTreeMap<String, String>) -> Resu
     let mut written = 0;
     for parameter in &file.parameters {
         let Some(value) = values.get(&parameter.name.text) else { continue };
-        let span = parameter.value.span;
+        let span = parameter.value.span();
         text += source.text.get(written..span.start).unwrap_or_default();
         text += value;
         written = span.end;

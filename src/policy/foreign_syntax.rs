@@ -1,7 +1,7 @@
 //! Constructs of other languages, with their equivalents in policies.
 
 /// Words of other languages, with advice.
-const WORDS: [(&[&str], &str); 17] = [
+const WORDS: [(&[&str], &str); 16] = [
     (
         &["while", "loop", "until", "repeat", "break", "continue", "foreach"],
         "there are no loops: a state executes its statements in every tick; write `if condition { \u{2026} }`, or a state with the transition `when condition -> State`",
@@ -11,7 +11,6 @@ const WORDS: [(&[&str], &str); 17] = [
         "a policy cannot print; `vibrissa run --ticks FILE` writes the perception and the command of every tick",
     ),
     (&["elif", "elseif", "elsif"], "write `else if condition { \u{2026} }`"),
-    (&["then"], "a block is in braces: `if condition { \u{2026} }`"),
     (&["endif", "end", "fi"], "a block ends with `}`"),
     (
         &["return"],

@@ -19,9 +19,9 @@ const NESTING_LIMIT: usize = 64;
 pub(super) const LENGTH_LIMIT: usize = 1 << 18;
 
 /// Keywords that are followed by an expression.
-const WORDS_BEFORE_OPERANDS: [&str; 15] = [
-    "and", "or", "not", "if", "when", "after", "for", "in", "record", "steer", "along", "at", "facing", "turning",
-    "expect",
+const WORDS_BEFORE_OPERANDS: [&str; 17] = [
+    "and", "or", "not", "if", "then", "else", "when", "after", "for", "in", "record", "steer", "along", "at", "facing",
+    "turning", "expect",
 ];
 
 mod derived {
@@ -140,6 +140,11 @@ pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
 /// True if an operand can end with a token, so that a following bar closes.
 fn ends_operand(before: &str) -> bool {
     [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !WORDS_BEFORE_OPERANDS.contains(&before)
+}
+
+/// True if an expression follows a token, so that a following `if` begins a conditional expression and no statement.
+pub(super) fn is_before_expression(token: &str) -> bool {
+    ["=", "(", ","].contains(&token) || token != "else" && WORDS_BEFORE_OPERANDS.contains(&token)
 }
 
 /// Length of the word at the beginning of a text (bytes).

@@ -214,7 +214,7 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
         parameters.chain(needs).chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(file.acts);
     let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
-        Diagnostic::error("P0603", "a library has only laws and derived values", first, "belongs to a machine")
+        Diagnostic::error("P0603", "a library has only laws, derived values and types", first, "belongs to a machine")
             .note(file.name.span, "a library")
             .hint(
                 "pass values to a law as arguments; only a machine has states, whiskers, needs, parameters, memory and tests",

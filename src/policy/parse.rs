@@ -13,12 +13,12 @@ use std::borrow::Cow;
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Bound, Contour, Derived, File, From, Guard, Keypoints, Law, Name, Need, Parameter, Quantity, Statement,
-    Steer, Transition, Turn, TypeName, Use,
+    Argument, Bound, Contour, Derived, Enumeration, File, From, Guard, Keypoints, Law, Name, Need, Parameter, Quantity,
+    Setting, Statement, Steer, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
-use expression::{binary, climb};
+use expression::{binary, choice, climb, named_value};
 use reader::{Reader, values};
 use state::{state, target, variable};
 use test::{property, test};
@@ -39,6 +39,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         needs: Vec::new(),
         keypoints: Vec::new(),
         contours: Vec::new(),
+        enumerations: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
         derived: Vec::new(),
@@ -85,6 +86,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 file.contours.push(Contour { name, keypoints });
             }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
+            Rule::enumeration => file.enumerations.push(enumeration(&mut reader)?),
             Rule::initial => file.initial.push(reader.name()?),
             Rule::derived => file.derived.push(Derived {
                 name: reader.name()?,
@@ -138,13 +140,35 @@ fn fitted(optional: Pair<'_>) -> Parsed<()> {
 
 fn parameter(reader: &mut Reader<'_>) -> Parsed<Parameter> {
     let name = reader.name()?;
-    let value = bound(reader.take(Rule::bound)?)?;
+    let value = setting(reader)?;
     let range = if reader.has(Rule::bound) {
         Some((bound(reader.take(Rule::bound)?)?, bound(reader.take(Rule::bound)?)?))
     } else {
         None
     };
     Ok(Parameter { name, value, range })
+}
+
+/// The value of a parameter.
+fn setting(reader: &mut Reader<'_>) -> Parsed<Setting> {
+    if reader.has(Rule::bound) {
+        return Ok(Setting::Number(bound(reader.take(Rule::bound)?)?));
+    }
+    let mut value = Reader::new(reader.take(Rule::chosen_value)?);
+    if value.has(Rule::truth) {
+        let truth = value.next()?;
+        return Ok(Setting::Truth(truth.as_str() == "true", truth.span()));
+    }
+    Ok(Setting::Choice(value.name()?, value.name()?))
+}
+
+fn enumeration(reader: &mut Reader<'_>) -> Parsed<Enumeration> {
+    let (name, mut values) = (reader.name()?, vec![reader.name()?]);
+    while reader.has(Rule::kw_or) {
+        reader.next()?;
+        values.push(reader.name()?);
+    }
+    Ok(Enumeration { name, values })
 }
 
 fn keypoints(pair: Pair<'_>) -> Parsed<Keypoints> {
@@ -188,7 +212,8 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
             type_name.next()?;
             factors.push((operator, type_name.name()?));
         }
-        arguments.push(Argument { name, type_name: TypeName { base, of, factors } });
+        let default = if argument.has(Rule::expression) { Some(argument.expression()?) } else { None };
+        arguments.push(Argument { name, type_name: TypeName { base, of, factors }, default });
     }
     Ok(arguments)
 }

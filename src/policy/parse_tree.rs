@@ -124,6 +124,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_needs
             | Rule::kw_param
             | Rule::kw_initial
+            | Rule::kw_type
             | Rule::kw_let
             | Rule::kw_law
             | Rule::kw_state
@@ -135,6 +136,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_in
             | Rule::kw_of
             | Rule::kw_if
+            | Rule::kw_then
             | Rule::kw_else
             | Rule::kw_do
             | Rule::kw_record

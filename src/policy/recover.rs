@@ -10,16 +10,16 @@ use std::collections::HashSet;
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
 
 use super::ast::File;
-use super::grammar::{brackets, is_word};
+use super::grammar::{brackets, is_before_expression, is_word};
 use super::parse::parse;
 
 /// The maximum number of parses of a text.
 const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
-const ITEM_WORDS: [&str; 14] = [
-    "whisker", "needs", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test", "property",
-    "machine", "library",
+const ITEM_WORDS: [&str; 15] = [
+    "type", "whisker", "needs", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test",
+    "property", "machine", "library",
 ];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
@@ -212,8 +212,11 @@ fn items(text: &str) -> (bool, Vec<usize>) {
     let (mut braces, mut parentheses, mut indent) = (0_usize, 0_usize, 0);
     let mut starts = Vec::new();
     let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2).peekable();
+    let mut before = "";
     while let Some(token) = tokens.next() {
         let word = token.of(text);
+        let is_value = word == "if" && is_before_expression(before);
+        before = word;
         match word {
             "{" => braces += 1,
             "}" => braces = braces.saturating_sub(1),
@@ -226,7 +229,9 @@ fn items(text: &str) -> (bool, Vec<usize>) {
                 let is_outermost = token.indent.is_some_and(|own| own <= indent);
                 // With more indentation, or after another word, it belongs to a state, or to a `whisker` or an `else`
                 // before its `if`.
-                let begins = if STATEMENT_WORDS.contains(&word) {
+                let begins = if is_value {
+                    false
+                } else if STATEMENT_WORDS.contains(&word) {
                     is_outermost && (braces == 0 || !is_balanced)
                 } else if braces > 0 {
                     is_item && !is_balanced && if INNER_WORDS.contains(&word) { is_outermost } else { is_first }
@@ -250,8 +255,12 @@ fn items(text: &str) -> (bool, Vec<usize>) {
 fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
     let (mut braces, mut parentheses) = (0_usize, 0_usize);
     let mut starts = Vec::new();
+    let mut before = "";
     for token in Tokens::new(&text[start..]) {
-        match &text[start + token.start..start + token.end] {
+        let word = &text[start + token.start..start + token.end];
+        let is_value = word == "if" && is_before_expression(before);
+        before = word;
+        match word {
             "{" => braces += 1,
             "}" if braces == 0 => return (starts, start + token.start),
             "}" => braces -= 1,
@@ -259,6 +268,7 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
             ")" => parentheses = parentheses.saturating_sub(1),
             // At the beginning of a line a statement begins even if a parenthesis was left open.
             word if braces == 0
+                && !is_value
                 && (STATEMENT_WORDS.contains(&word) || PART_WORDS.contains(&word))
                 && (parentheses == 0 || token.indent.is_some()) =>
             {

@@ -9,14 +9,16 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
-const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`, `property`)";
+const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `type`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`, `property`)";
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
-const ITEM_WORDS: [&str; 12] =
-    ["machine", "library", "use", "whisker", "needs", "param", "initial", "law", "state", "always", "test", "property"];
+const ITEM_WORDS: [&str; 13] = [
+    "machine", "library", "use", "whisker", "needs", "type", "param", "initial", "law", "state", "always", "test",
+    "property",
+];
 
 /// The diagnostic for an error of pest.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
@@ -120,7 +122,10 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
     let is_block_due = rules.iter().any(|rule| matches!(rule, Rule::block | Rule::open_brace));
     Some(match found {
         "-" if starts("->") => "a transition begins with `when` or `after`: `when condition -> State`".to_owned(),
-        ":" if is_block_due => BLOCK.to_owned(),
+        ":" | "then" if is_block_due => BLOCK.to_owned(),
+        "{" if rules.contains(&Rule::kw_then) => {
+            "a value is chosen without braces: `if condition then value else value`".to_owned()
+        }
         ":" if rules.contains(&Rule::equals) && rest[1..].trim_start().starts_with(char::is_alphabetic) => {
             "leave out the type, which is inferred from the value: `let name = value`".to_owned()
         }
@@ -129,7 +134,7 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
             format!("write `set name = name {found} value`")
         }
         "+" | "-" if rest[1..].starts_with(found) => format!("write `set name = name {found} 1`"),
-        "?" => "write `if condition { \u{2026} } else { \u{2026} }`, or `blend(from, to, share)`".to_owned(),
+        "?" => "write `if condition then value else value`".to_owned(),
         "=" if starts("=>") => "write `->`".to_owned(),
         "=" if before.split_whitespace().nth_back(1) == Some("needs") => {
             "a need is a range: `needs control_rate in 20 .. 60 Hz`".to_owned()
@@ -159,12 +164,16 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         }
         "else" => "`else` follows the `}` of an `if`".to_owned(),
         "machine" | "library" => "a file has one machine or one library, in its first line".to_owned(),
+        _ if rules == [Rule::dot] => {
+            "a parameter is a number, `true`, `false`, or a value of an enumeration such as `Side.left`".to_owned()
+        }
         _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
         _ if advice_for(found).is_some() => advice_for(found)?.to_owned(),
         _ if rules.contains(&Rule::kw_do) && found.starts_with(is_word) && !is_keyword(found) => {
             statement(found, rest[found.len()..].trim_start())?
         }
         _ if is_block_due && !is_value_due(rules) && begins_statement(found) => BLOCK.to_owned(),
+        "if" if is_value_due(rules) => "write it in parentheses: `(if condition then value else value)`".to_owned(),
         _ if is_keyword(found) && is_value_due(rules) => {
             format!("`{found}` is a keyword and cannot be a value")
         }
@@ -240,7 +249,10 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_turning => (0, "`turning`"),
         Rule::kw_for => (1, "`for`"),
         Rule::kw_in => (1, "`in`"),
+        Rule::kw_or if among.len() == 1 => (1, "`or`"),
+        Rule::dot if among.len() == 1 => (1, "`.`"),
         Rule::kw_of | Rule::keypoints => (1, "`of`"),
+        Rule::kw_then => (0, "`then`"),
         Rule::kw_else => (4, "`else`"),
         Rule::fitted => (0, "`fitted`"),
         Rule::points => (0, "`points`"),
@@ -254,6 +266,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::text if among.contains(&Rule::module) => (0, "the path of a file in quotes"),
         Rule::text => (0, "a text"),
         Rule::bound => (0, "a number"),
+        Rule::chosen_value => (1, "`true`, `false` or a value such as `Side.left`"),
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
         Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
         // `param` represents all words that begin an item, and `do` all words that begin a statement.
@@ -264,7 +277,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_expect => (2, "`expect`"),
         Rule::kw_when => (3, "`when`"),
         Rule::kw_after => (3, "`after`"),
-        Rule::kw_if if !among.contains(&Rule::kw_do) => (2, "`if`"),
+        Rule::kw_if if !among.contains(&Rule::kw_do) && !is_value_due(among) => (2, "`if`"),
         Rule::close_brace => (4, "`}`"),
         Rule::access | Rule::expression | Rule::mover => (0, "a value"),
         Rule::sign | Rule::times => (CONTINUES, "an operator"),
@@ -285,6 +298,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::points => "points",
         Rule::apart => "apart",
         Rule::kw_needs => "needs",
+        Rule::kw_type => "type",
         Rule::kw_param => "param",
         Rule::kw_var => "var",
         Rule::kw_initial => "initial",
@@ -300,6 +314,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_when => "when",
         Rule::kw_after => "after",
         Rule::kw_if => "if",
+        Rule::kw_then => "then",
         Rule::kw_else => "else",
         Rule::kw_set => "set",
         Rule::kw_do => "do",

@@ -5,12 +5,16 @@ use std::fmt;
 use vibrissa_runtime::machine::Register;
 use vibrissa_runtime::units::Dimension;
 
+use crate::diagnostic::Span;
+
 use super::ast::{Binary, TypeName};
 
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Type {
     Truth,
+    /// One of the values of an enumeration.
+    Choice(Choices),
     Scalar(Dimension),
     Vector(Dimension),
     Whisker,
@@ -20,6 +24,15 @@ pub(super) enum Type {
     Body,
     /// A whole run, in a test.
     Run,
+}
+
+/// An enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Choices {
+    /// Span of the name in its declaration, which identifies the enumeration.
+    pub(super) declared: Span,
+    /// The number of values.
+    pub(super) count: usize,
 }
 
 impl Type {
@@ -84,6 +97,7 @@ impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Truth => f.write_str("a truth"),
+            Self::Choice(_) => f.write_str("a value of an enumeration"),
             Self::Scalar(dimension) => f.write_str(&dimension.phrase()),
             Self::Vector(Dimension::NUMBER) => f.write_str("a vector of plain numbers"),
             Self::Vector(dimension) => write!(f, "a vector in {}", dimension.si_unit()),

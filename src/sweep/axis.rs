@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Span;
 use crate::scenario::Change;
+use vibrissa_runtime::machine::ParameterValue;
 use vibrissa_runtime::units::Quantity;
 
 /// A parameter or key that varies, with its values.
@@ -15,17 +16,17 @@ pub(super) struct Axis {
 #[derive(Debug, Clone)]
 pub(super) enum AxisValues {
     /// Values of a policy parameter.
-    Parameter(Vec<ParameterValue>),
+    Parameter(Vec<AxisValue<ParameterValue>>),
     /// Values of a parameter of the families.
-    Family(&'static str, Vec<ParameterValue>),
+    Family(&'static str, Vec<AxisValue<Quantity>>),
     /// Values of a scenario key.
     Scenario(Vec<Change>),
 }
 
-/// A value of a parameter.
+/// A value of a parameter, as in the text.
 #[derive(Debug, Clone)]
-pub(super) struct ParameterValue {
-    pub(super) quantity: Quantity,
+pub(super) struct AxisValue<T> {
+    pub(super) value: T,
     /// The value as written in the sweep.
     pub(super) text: String,
     /// Its span in the sweep.
@@ -41,7 +42,8 @@ impl Axis {
 impl AxisValues {
     pub(super) fn len(&self) -> usize {
         match self {
-            Self::Parameter(values) | Self::Family(_, values) => values.len(),
+            Self::Parameter(values) => values.len(),
+            Self::Family(_, values) => values.len(),
             Self::Scenario(changes) => changes.len(),
         }
     }
@@ -49,7 +51,8 @@ impl AxisValues {
     /// The text of a value in keys of runs. `value` is an index below the number of values.
     pub(super) fn text(&self, value: usize) -> String {
         match self {
-            Self::Parameter(values) | Self::Family(_, values) => values[value].text.clone(),
+            Self::Parameter(values) => values[value].text.clone(),
+            Self::Family(_, values) => values[value].text.clone(),
             Self::Scenario(changes) => changes[value].text(),
         }
     }

@@ -1,12 +1,12 @@
 //! The axes of a sweep that vary parameters of families.
 
-use super::axis::{AxisValues, ParameterValue};
+use super::axis::{AxisValue, AxisValues};
 use super::read;
 use super::scenes::{ScenesOf, SweepScenes};
 use crate::catalogue::{self, Parameter};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::scenario::{Node, Placed, Reader, fault};
-use vibrissa_runtime::units::suggest;
+use vibrissa_runtime::units::{Quantity, suggest};
 
 /// Reads the values of a parameter that all `scenes` must have.
 pub(super) fn values(
@@ -50,17 +50,17 @@ fn parameter(reader: &mut Reader<'_>, scenes: &SweepScenes, name: &Placed<String
 }
 
 /// Reads a value that all `parameters` allow.
-fn value(reader: &mut Reader<'_>, parameters: &[&Parameter], item: &Placed<Node>) -> Option<ParameterValue> {
-    let value = read::parameter(reader, item)?;
+fn value(reader: &mut Reader<'_>, parameters: &[&Parameter], item: &Placed<Node>) -> Option<AxisValue<Quantity>> {
+    let value = read::quantity(reader, item)?;
     for parameter in parameters {
-        if value.quantity.dimension != parameter.dimension {
+        if value.value.dimension != parameter.dimension {
             let message = format!("`{}` is not a value of `{}`", value.text, parameter.name);
-            let label = format!("is {}", value.quantity.dimension.phrase());
+            let label = format!("is {}", value.value.dimension.phrase());
             let fault = Diagnostic::error(fault::DIMENSION, message, value.span, label);
             reader.report(fault.hint(format!("for example `{}`", parameter.text(parameter.simplest))));
             return None;
         }
-        if let Some(reason) = parameter.fault(value.quantity.value_si) {
+        if let Some(reason) = parameter.fault(value.value.value_si) {
             let message = format!("`{}` cannot be {}", parameter.name, value.text);
             reader.report(Diagnostic::error(fault::RANGE, message, value.span, reason));
             return None;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::machine::{ParameterValue, Program};
 use vibrissa_runtime::units::Dimension;
 
 use super::{Header, ScenesOf, Shard, Sweep, SweepRun};
@@ -185,10 +185,10 @@ impl Plan {
         let policy = &self.policies[run.policy];
         let mut program = policy.value.clone();
         let mut settings = Vec::new();
-        for (name, quantity, span) in run.parameters() {
-            let set = program.set(name, quantity.value_si, quantity.dimension);
-            set.map_err(|cause| LoadError::at(&self.source, run.unfit(Some(span), &cause.to_string())))?;
-            settings.push((name, quantity.value_si));
+        for (name, value, span) in run.parameters() {
+            let set = program.set_value(name, value);
+            let value = set.map_err(|cause| LoadError::at(&self.source, run.unfit(Some(span), &cause.to_string())))?;
+            settings.push((name, value));
         }
         let (path, text, drawn_speed) = self.scenario(run)?;
         if let Some(speed) = drawn_speed {
@@ -232,7 +232,11 @@ impl Plan {
         match (&scenes.of, &self.scenarios[run.scenes]) {
             (ScenesOf::Family(family), _) => {
                 let speed = run.parameters().find(|(name, ..)| *name == SPEED.name);
-                let speed = speed.map(|(_, speed, span)| (SPEED.name, speed.value_si, span));
+                // Any other value than a quantity is refused when it is set.
+                let speed = speed.and_then(|(_, speed, span)| match speed {
+                    ParameterValue::Quantity(speed) => Some((SPEED.name, speed.value_si, span)),
+                    ParameterValue::Choice(_) => None,
+                });
                 let given: Vec<_> = run.family_values().chain(speed).collect();
                 let values: Values = given.iter().map(|&(name, value, _)| (name, value)).collect();
                 let draw = family.draw_with(scenes.family_seed(), run.trial, &values);

@@ -1,6 +1,6 @@
 //! The YAML format of a sweep.
 
-use super::axis::{Axis, AxisValues, ParameterValue};
+use super::axis::{Axis, AxisValue, AxisValues};
 use super::definition::Sweep;
 use super::family_axis;
 use super::scenes::{ScenesOf, SweepScenes};
@@ -9,6 +9,7 @@ use crate::family::{FAMILIES, Family};
 use crate::scenario::{Change, Entry, Fields, Node, Placed, Reader, fault, name, reference, root_place};
 use crate::scene::FileReference;
 use std::collections::BTreeMap;
+use vibrissa_runtime::machine::ParameterValue;
 use vibrissa_runtime::units::{Dimension, Quantity, parse_quantity};
 
 const SCENES: &str = "[{family: convex-corner, trials: 100}]";
@@ -232,10 +233,24 @@ fn parameters(reader: &mut Reader<'_>, _: &Placed<String>, items: &[Placed<Node>
     Some(AxisValues::Parameter(values.into_iter().collect::<Option<_>>()?))
 }
 
-/// Reads a value of a parameter. Its dimension is checked later.
-pub(super) fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<ParameterValue> {
+/// Reads a value of a parameter of a policy: a quantity, or the name of a choice. The policy checks it later.
+fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<AxisValue<ParameterValue>> {
+    let choice = match &node.value {
+        Node::Bool(truth) => Some(truth.to_string()),
+        Node::Text(text) if let Ok(ParameterValue::Choice(choice)) = ParameterValue::parse(text) => Some(choice),
+        _ => None,
+    };
+    if let Some(text) = choice {
+        return Some(AxisValue { value: ParameterValue::Choice(text.clone()), text, span: reader.extent(node) });
+    }
+    let AxisValue { value, text, span } = quantity(reader, node)?;
+    Some(AxisValue { value: ParameterValue::Quantity(value), text, span })
+}
+
+/// Reads a quantity. Its dimension is checked later.
+pub(super) fn quantity(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<AxisValue<Quantity>> {
     let plain = |value_si| Quantity { value_si, dimension: Dimension::NUMBER, unit: None };
-    let (quantity, text) = match &node.value {
+    let (value, text) = match &node.value {
         Node::Integer(integer) => (plain(*integer as f64), integer.to_string()),
         Node::Float(float) => (plain(*float), float.to_string()),
         Node::Text(text) => match parse_quantity(text) {
@@ -252,7 +267,7 @@ pub(super) fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<
             return None;
         }
     };
-    Some(ParameterValue { quantity, text, span: reader.extent(node) })
+    Some(AxisValue { value, text, span: reader.extent(node) })
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "it stands beside `parameters`")]

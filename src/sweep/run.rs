@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::scenario;
 use crate::scenario::Files;
 use crate::scene::{FileReference, Scene};
-use vibrissa_runtime::units::Quantity;
+use vibrissa_runtime::machine::ParameterValue;
 
 /// One run of a sweep: a trial, under one policy, with one value of every axis.
 #[derive(Debug, Clone, Copy)]
@@ -84,9 +84,9 @@ impl<'s> SweepRun<'s> {
     }
 
     /// The parameters of its policy that are set, with their spans in the sweep.
-    pub fn parameters(&self) -> impl Iterator<Item = (&'s str, Quantity, Span)> {
+    pub fn parameters(&self) -> impl Iterator<Item = (&'s str, &'s ParameterValue, Span)> {
         self.choices().filter_map(|(axis, value)| match &axis.values {
-            AxisValues::Parameter(values) => Some((axis.name.as_str(), values[value].quantity, values[value].span)),
+            AxisValues::Parameter(values) => Some((axis.name.as_str(), &values[value].value, values[value].span)),
             AxisValues::Scenario(_) | AxisValues::Family(..) => None,
         })
     }
@@ -94,7 +94,7 @@ impl<'s> SweepRun<'s> {
     /// The parameters of its family that are set (SI), with their spans in the sweep.
     pub(super) fn family_values(&self) -> impl Iterator<Item = (&'static str, f64, Span)> {
         self.choices().filter_map(|(axis, value)| match &axis.values {
-            AxisValues::Family(name, values) => Some((*name, values[value].quantity.value_si, values[value].span)),
+            AxisValues::Family(name, values) => Some((*name, values[value].value.value_si, values[value].span)),
             AxisValues::Scenario(_) | AxisValues::Parameter(_) => None,
         })
     }

@@ -42,7 +42,9 @@ pub(crate) enum AxisError {
         name: String,
     },
     /// No parameter has a range.
-    #[error("no parameter of the policy has a range to search; declare one: param NAME = ... in LOW .. HIGH")]
+    #[error(
+        "no parameter of the policy is a number with a range to search; declare one: param NAME = ... in LOW .. HIGH"
+    )]
     None,
 }
 
@@ -70,7 +72,7 @@ impl Axis {
     }
 
     fn new(parameter: &Parameter) -> Option<Self> {
-        let (low, high) = parameter.range.filter(|(low, high)| low < high)?;
+        let (low, high) = parameter.range.filter(|(low, high)| low < high && parameter.choices.is_empty())?;
         let is_logarithmic = low > 0.0 && high / low > LOGARITHMIC_FROM;
         Some(Self { name: parameter.name.clone(), dimension: parameter.dimension, low, high, is_logarithmic })
     }

@@ -27,7 +27,7 @@ const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 const STACK: usize = 2 << 20;
 
 /// Words and signs of the language, and some that it does not have.
-const TOKENS: [&str; 105] = [
+const TOKENS: [&str; 109] = [
     "var",
     "set",
     "entry",
@@ -59,6 +59,9 @@ const TOKENS: [&str; 105] = [
     "sample_age",
     "30 Hz",
     "param",
+    "type",
+    "Side",
+    "left",
     "initial",
     "let",
     "law",
@@ -70,6 +73,7 @@ const TOKENS: [&str; 105] = [
     "in",
     "of",
     "if",
+    "then",
     "else",
     "do",
     "record",

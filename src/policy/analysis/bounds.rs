@@ -115,6 +115,7 @@ impl<'m> Bounds<'m> {
             | Op::Distance { .. }
             | Op::Dot { .. }
             | Op::Turn { .. }
+            | Op::Select { .. }
             | Op::MultiplyAdd { .. } => {
                 self.several(op, region)?;
             }
@@ -232,6 +233,15 @@ impl<'m> Bounds<'m> {
             Op::Clamp { to, a, low, high } => {
                 let raised = self.at(a, region).maximum(self.at(low, region));
                 let value = raised.minimum(self.at(high, region));
+                self.put(to, value);
+            }
+            Op::Select { to, condition, a, b } => {
+                let (chosen, a, b) = (self.at(condition, region), self.at(a, region), self.at(b, region));
+                let value = match (chosen.may_hold(), chosen.may_fail()) {
+                    (true, true) => a.join(b),
+                    (true, false) => a,
+                    (false, _) => b,
+                };
                 self.put(to, value);
             }
             Op::Blend { to, a, b, share } => {

@@ -25,20 +25,22 @@ enum Origin {
 #[derive(Debug)]
 pub(super) struct Flow(Vec<Origin>);
 
+/// Adds copies of registers to the origins of a register.
+fn copy(origins: &mut [Origin], to: Register, from: &[Register]) {
+    match origins.get_mut(usize::from(to)) {
+        Some(origin @ Origin::Start) => *origin = Origin::Copies(from.to_vec()),
+        Some(Origin::Copies(sources)) => sources.extend(from),
+        Some(Origin::Computed) | None => {}
+    }
+}
+
 impl Flow {
     pub(super) fn new(program: &Program) -> Self {
         let mut origins = vec![Origin::Start; program.initial_registers.len()];
         for op in &program.code {
             match *op {
-                Op::Copy { to, a } => {
-                    if let Some(origin) = origins.get_mut(usize::from(to)) {
-                        match origin {
-                            Origin::Start => *origin = Origin::Copies(vec![a]),
-                            Origin::Copies(sources) => sources.push(a),
-                            Origin::Computed => {}
-                        }
-                    }
-                }
+                Op::Copy { to, a } => copy(&mut origins, to, &[a]),
+                Op::Select { to, a, b, .. } => copy(&mut origins, to, &[a, b]),
                 _ => {
                     for register in op.operands().writes.into_iter().flat_map(RegisterSpan::registers) {
                         if let Some(origin) = origins.get_mut(register) {

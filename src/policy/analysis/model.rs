@@ -1,5 +1,7 @@
 //! The model of a policy for analysis: names and spans from the syntax tree, semantics from the program.
 
+use std::collections::HashMap;
+
 use crate::diagnostic::Span;
 use crate::policy::ast::{self, File};
 use crate::policy::lower::Lowered;
@@ -17,6 +19,8 @@ pub(super) struct Model<'a> {
     pub(super) always: Vec<Edge<'a>>,
     /// All states, in the order of the program.
     pub(super) states: Vec<Node<'a>>,
+    /// The names of the values of each enumeration, by the span of its name.
+    choices: &'a HashMap<Span, Vec<String>>,
     flow: Flow,
 }
 
@@ -46,6 +50,8 @@ pub(super) struct Named<'a> {
     pub(super) r#type: Type,
     /// The first register of the value. A vector has two registers.
     pub(super) first: Register,
+    /// The names of the values 0, 1, 2 and so on, if it is not a number.
+    pub(super) choices: &'a [String],
 }
 
 impl<'a> Edge<'a> {
@@ -124,6 +130,7 @@ impl<'a> Model<'a> {
             program,
             always: edges(None, &program.always, &file.always),
             states: states.collect(),
+            choices: &lowered.choices,
             flow: Flow::new(program),
         }
     }
@@ -185,13 +192,19 @@ impl<'a> Model<'a> {
     pub(super) fn named(&self, register: Register) -> Option<Named<'_>> {
         if let Some(parameter) = self.program.parameters.get(usize::from(register)) {
             let r#type = Type::Scalar(parameter.dimension);
-            return Some(Named { name: &parameter.name, r#type, first: register });
+            return Some(Named { name: &parameter.name, r#type, first: register, choices: &parameter.choices });
         }
         let arguments = self.states.iter().flat_map(|state| state.arguments);
         let mut arguments = arguments.map(|(name, value)| (name, value, value.register));
-        arguments
-            .find(|(_, value, first)| (*first..first + value.r#type.width()).contains(&register))
-            .map(|(name, value, first)| Named { name, r#type: value.r#type, first })
+        arguments.find(|(_, value, first)| (*first..first + value.r#type.width()).contains(&register)).map(
+            |(name, value, first)| {
+                let choices = match value.r#type {
+                    Type::Choice(choices) => self.choices.get(&choices.declared).map_or(&[][..], Vec::as_slice),
+                    _ => &[],
+                };
+                Named { name, r#type: value.r#type, first, choices }
+            },
+        )
     }
 
     /// True if a register does not change while a state is active: a constant or a parameter.
@@ -202,7 +215,10 @@ impl<'a> Model<'a> {
     /// The domain of a register that the current code has not written. `None` if its value never changes.
     pub(super) fn domain(&self, register: Register) -> Option<Domain> {
         if let Some(parameter) = self.program.parameters.get(usize::from(register)) {
-            return parameter.range.map(|(low, high)| Domain::Range(Interval::new(low, high)));
+            return match parameter.choices.len() {
+                0 => parameter.range.map(|(low, high)| Domain::Range(Interval::new(low, high))),
+                count => Some(indices(count)),
+            };
         }
         if !self.flow.is_written(register) {
             return None;
@@ -212,13 +228,14 @@ impl<'a> Model<'a> {
             (Some(values), _) => Domain::Values(values),
             (None, Some(Type::Whisker)) => indices(self.program.whiskers.len()),
             (None, Some(Type::Contour)) => indices(self.program.whiskers.len() + self.program.contours.len()),
-            (None, Some(Type::Truth)) => Domain::Values(vec![0.0, 1.0]),
+            (None, Some(Type::Truth)) => indices(2),
+            (None, Some(Type::Choice(choices))) => indices(choices.count),
             (None, _) => Domain::Range(Interval::ANYTHING),
         })
     }
 }
 
-/// The domain of an index into so many things.
+/// The domain of a number that is an index into so many things.
 fn indices(count: usize) -> Domain {
     Domain::Values((0..count).map(|index| index as f64).collect())
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::policy::ast::{Expression, Guard, Kind, Name, Statement, Target, Transition, Turn};
+use crate::policy::ast::{Argument, Expression, Guard, Kind, Name, Statement, Target, Transition, Turn};
 
 /// A set of used names.
 #[derive(Debug, Default)]
@@ -88,6 +88,11 @@ impl<'a> Names<'a> {
         }
     }
 
+    /// Adds the names that the defaults of arguments use.
+    pub(super) fn defaults(&mut self, arguments: &'a [Argument]) {
+        self.expressions(arguments.iter().filter_map(|argument| argument.default.as_ref()));
+    }
+
     pub(super) fn expressions(&mut self, expressions: impl IntoIterator<Item = &'a Expression>) {
         expressions.into_iter().for_each(|expression| self.expression(expression));
     }
@@ -103,7 +108,10 @@ impl<'a> Names<'a> {
                 self.expression(owner);
                 self.expressions(values.iter().flatten());
             }
-            Kind::Norm(inner) | Kind::Negate(inner) | Kind::Not(inner) => self.expression(inner),
+            Kind::Norm(inner) | Kind::Negate(inner) | Kind::Not(inner) | Kind::Named { value: inner, .. } => {
+                self.expression(inner);
+            }
+            Kind::If { condition, value, otherwise } => self.expressions([&**condition, value, otherwise]),
             Kind::Binary { left, right, .. } => {
                 self.expression(left);
                 self.expression(right);

@@ -64,6 +64,7 @@ impl Bounds<'_> {
             }
             Op::Less { .. } | Op::LessOrEqual { .. } | Op::Equal { .. } => self.back_comparison(op, region),
             Op::And { .. } | Op::Or { .. } | Op::Not { .. } => self.back_truth(op, region),
+            Op::Select { to, condition, a, b } => self.back_choice(to, condition, [a, b], region),
             Op::Whisker { to, whisker, quantity } => {
                 let result = self.cell(to);
                 match self.whisker(whisker, region) {
@@ -136,6 +137,27 @@ impl Bounds<'_> {
             }
             _ => Some(()),
         }
+    }
+
+    /// Propagates the result of a conditional expression to the side that gives it, if only one can.
+    fn back_choice(
+        &mut self,
+        to: Register,
+        condition: Register,
+        [a, b]: [Register; 2],
+        region: &mut Region<'_>,
+    ) -> Option<()> {
+        let (result, chosen) = (self.cell(to), self.at(condition, region));
+        let fits = |side: Interval| side.meet(result).has_any();
+        let is_first = chosen.may_hold() && fits(self.at(a, region));
+        let is_second = chosen.may_fail() && fits(self.at(b, region));
+        let (side, holds) = match (is_first, is_second) {
+            (true, true) => return Some(()),
+            (true, false) => (a, 1.0),
+            (false, true) => (b, 0.0),
+            (false, false) => return None,
+        };
+        (self.want(condition, Interval::point(holds), region) && self.want(side, result, region)).then_some(())
     }
 
     /// Propagates a result through arithmetic. A result that may be NaN gives no information.

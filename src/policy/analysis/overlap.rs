@@ -59,11 +59,18 @@ fn is_watch(program: &Program, before: &Edge<'_>, edge: &Edge<'_>) -> bool {
     before.from != edge.from && (before.from.is_some() || !comes_first(program, before, edge))
 }
 
+/// True if two values are the same, as far as names show.
+fn is_same((a, b): (&Expression, &Expression)) -> bool {
+    match (&a.kind, &b.kind) {
+        (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,
+        (Kind::Named { name, value }, Kind::Named { name: other, value: b }) => {
+            name.text == other.text && is_same((value, b))
+        }
+        _ => false,
+    }
+}
+
 /// True if two transitions have the same target with the same values, as far as names show, or both end the run.
 fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
-    let same_value = |(a, b): (&Expression, &Expression)| match (&a.kind, &b.kind) {
-        (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,
-        _ => false,
-    };
-    a.leads_to() == b.leads_to() && a.values().zip(b.values()).all(same_value)
+    a.leads_to() == b.leads_to() && a.values().count() == b.values().count() && a.values().zip(b.values()).all(is_same)
 }

@@ -119,12 +119,11 @@ fn inside(range: Interval, value: f64) -> f64 {
 /// The simplest value of an unknown.
 pub(super) fn plainest(model: &Model<'_>, unknown: Unknown, domain: &Domain) -> f64 {
     match (unknown, domain) {
-        (Unknown::Register(register), Domain::Range(range)) => {
-            match model.program.parameters.get(usize::from(register)) {
-                Some(parameter) => parameter.default.clamp(range.low, range.high),
-                None => plain(unknown, domain),
-            }
-        }
+        (Unknown::Register(register), _) => match (model.program.parameters.get(usize::from(register)), domain) {
+            (Some(parameter), Domain::Range(range)) => parameter.default.clamp(range.low, range.high),
+            (Some(parameter), Domain::Values(values)) if values.contains(&parameter.default) => parameter.default,
+            _ => plain(unknown, domain),
+        },
         _ => plain(unknown, domain),
     }
 }

@@ -10,13 +10,15 @@ use super::names::Names;
 /// values of a library are exports, so they are never unused.
 pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let file = &files.main;
-    let (mut used, mut unread) = (Names::default(), Vec::new());
+    let (mut used, mut used_by_defaults, mut unread) = (Names::default(), Names::default(), Vec::new());
     let mut part = |names: &mut Names<'f>, arguments: &'f [Argument], of: &str| {
+        let defaults = Names::of(|names| names.defaults(arguments));
         names.give(arguments.iter().map(|argument| &argument.name));
         for argument in arguments.iter().filter(|argument| !names.has(&argument.name.text)) {
             let hint = format!("use it, or remove it here and wherever `{of}` is used");
             warnings.push(never_used("P0507", "argument", &argument.name, hint));
         }
+        used_by_defaults.extend(&defaults);
     };
     for derived in &file.derived {
         let mut names = Names::of(|names| names.expression(&derived.value));
@@ -51,6 +53,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
             None => used.extend(&names),
         }
     }
+    used.extend(&used_by_defaults);
     file.memory.iter().for_each(|(_, value)| used.expression(value));
     used.statements(&file.body);
     used.transitions(&file.always);
@@ -68,7 +71,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
 
     for (import, &library) in file.uses.iter().zip(files.links.first().into_iter().flatten()) {
         let Some(library) = files.libraries.get(library) else { continue };
-        let mut own = library.derived.iter().map(|item| &item.name).chain(library.laws.iter().map(|item| &item.name));
+        let mut own = library.exports();
         match &import.names {
             Some(names) => {
                 let idle = names.iter().filter(|name| !used.has(&name.text));
@@ -89,8 +92,10 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let whiskers = file.whiskers.iter().map(|whisker| ("P0505", "whisker", whisker));
     let contours = file.contours.iter().map(|contour| ("P0505", "contour", &contour.name));
     let laws = file.laws.iter().map(|law| ("P0506", "law", &law.name));
+    let enumerations = file.enumerations.iter().map(|item| ("P0506", "type", &item.name));
     let derived = file.derived.iter().map(|derived| ("P0506", "derived value", &derived.name));
-    for (code, kind, name) in parameters.chain(whiskers).chain(contours).chain(laws).chain(derived) {
+    for (code, kind, name) in parameters.chain(whiskers).chain(contours).chain(laws).chain(derived).chain(enumerations)
+    {
         if !used.has(&name.text) {
             warnings.push(never_used(code, kind, name, "use it or leave it out"));
         }

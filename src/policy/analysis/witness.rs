@@ -135,7 +135,9 @@ fn named_values(model: &Model<'_>, point: &Point) -> Vec<String> {
         if as_given {
             continue;
         }
+        let choice = (0_u32..).zip(named.choices).find(|(number, _)| (f64::from(*number) - value).abs() < 0.5);
         let shown = match named.r#type {
+            _ if let Some((_, choice)) = choice => choice.clone(),
             Type::Whisker | Type::Contour => index_name(model.program, value).to_owned(),
             Type::Vector(_) => {
                 let part = |register| point.value(Unknown::Register(register));

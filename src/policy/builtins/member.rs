@@ -317,6 +317,6 @@ pub(in crate::policy) fn members(owner: Type) -> &'static [Member] {
         Type::Contour => &CONTOUR,
         Type::Body => &BODY,
         Type::Run => &RUN,
-        Type::Truth | Type::Scalar(_) | Type::Vector(_) => &[],
+        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Vector(_) => &[],
     }
 }

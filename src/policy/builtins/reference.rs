@@ -138,8 +138,10 @@ fn standard(page: &mut String) {
         let mut items: Vec<(&str, &Name, &Vec<Argument>)> = laws.chain(values).collect();
         items.sort_by_key(|(_, name, _)| name.span.start);
         for (kind, name, arguments) in items {
-            let arguments =
-                arguments.iter().map(|one| format!("{}: {}", one.name.text, source.slice(one.type_name.span())));
+            let arguments = arguments.iter().map(|one| {
+                let end = one.default.as_ref().map_or(one.type_name.span(), |default| default.span);
+                format!("{}: {}", one.name.text, source.slice(one.type_name.span().to(end)))
+            });
             let arguments = arguments.collect::<Vec<_>>().join(", ");
             let arguments = if arguments.is_empty() && kind == "let" { arguments } else { format!("({arguments})") };
             let said = description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));

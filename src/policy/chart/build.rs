@@ -35,6 +35,8 @@ impl Builder<'_> {
     fn state(&self, index: usize, state: &ast::State, file: &File) -> State {
         let arguments = state.arguments.iter().map(|argument| {
             let type_name = self.text(argument.type_name.span());
+            let default = argument.default.as_ref().map(|default| self.text(default.span));
+            let type_name = default.map_or(type_name.clone(), |default| format!("{type_name} = {default}"));
             Argument { name: argument.name.text.clone(), type_name }
         });
         let outer = state.parent.map(|parent| &file.states[parent]);

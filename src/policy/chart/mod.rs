@@ -77,7 +77,7 @@ pub struct State {
 pub struct Argument {
     /// Its name.
     pub name: String,
-    /// The type, as in the text.
+    /// The type with the default, as in the text.
     pub type_name: String,
 }
 

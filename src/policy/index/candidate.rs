@@ -14,7 +14,7 @@ use vibrissa_runtime::units::Dimension;
 use super::context::{Context, Expected, Level, context};
 use super::import::{exports, heading};
 use super::keyword::{Keyword, Position, keyword, keywords_at};
-use super::resolve::Owner;
+use super::operands::Owner;
 use super::symbol::{Symbol, SymbolKind};
 use super::{Index, text};
 
@@ -55,7 +55,7 @@ pub struct Candidate {
 }
 
 /// Keywords that begin an item of a library.
-const IN_LIBRARIES: [&str; 3] = ["use", "let", "law"];
+const IN_LIBRARIES: [&str; 4] = ["use", "let", "law", "type"];
 /// Dimensions of numbers that occur in policies.
 const WRITTEN: [Dimension; 10] = [
     Dimension::LENGTH,
@@ -89,6 +89,10 @@ impl Index {
                 Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
                 Some(&Owner::Value(owner)) => members(owner).collect(),
                 Some(&Owner::State(outer)) => self.inner_states(outer),
+                Some(&Owner::Enumeration(owner)) => {
+                    let choices = self.symbols.iter().filter(|symbol| symbol.owner == Some(owner));
+                    choices.map(|symbol| self.symbol(symbol)).collect()
+                }
                 None => Vec::new(),
             },
             Expected::Target => self.targets(context),
@@ -110,7 +114,8 @@ impl Index {
             Expected::Law => of_kind(&[SymbolKind::Law]).collect(),
             Expected::Memory => of_kind(&[SymbolKind::Memory]).collect(),
             Expected::Type => {
-                ["whisker", "contour", "truth", "vector"].into_iter().map(of_type).chain(dimensions()).collect()
+                let built_in = ["whisker", "contour", "truth", "vector"].into_iter().map(of_type).chain(dimensions());
+                built_in.chain(of_kind(&[SymbolKind::Enumeration])).collect()
             }
             Expected::Dimension => dimensions().collect(),
             Expected::Unit => units().collect(),
@@ -130,7 +135,8 @@ impl Index {
     pub(super) fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
         let at = context.typed.start;
         let known = self.symbols.iter().filter(move |symbol| {
-            (symbol.visible.start..=symbol.visible.end).contains(&at)
+            symbol.kind != SymbolKind::Choice
+                && (symbol.visible.start..=symbol.visible.end).contains(&at)
                 && context.statement != Some(symbol.whole.start)
                 && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
                 && (symbol.kind != SymbolKind::Memory || symbol.span.start < context.memory_end)
@@ -152,7 +158,8 @@ impl Index {
     }
 
     fn values(&self, context: &Context) -> Vec<Candidate> {
-        let named = self.known(context).filter(|symbol| symbol.kind.is_value()).map(|symbol| self.symbol(symbol));
+        let is_value = |symbol: &&Symbol| symbol.kind.is_value() || symbol.kind == SymbolKind::Enumeration;
+        let named = self.known(context).filter(is_value).map(|symbol| self.symbol(symbol));
         named.chain(keywords_at(Position::Value).map(of_keyword)).chain(functions()).collect()
     }
 
@@ -168,7 +175,7 @@ impl Index {
         let import = self.imports.iter().find(|import| Some(import.start) == context.statement);
         let Some(part) = import.and_then(|import| import.part(&self.source)) else { return Vec::new() };
         let candidate = |symbol: &Symbol| Candidate { snippet: symbol.name.clone(), ..self.symbol(symbol) };
-        exports(&self.source, part).iter().map(candidate).collect()
+        exports(&self.source, part).iter().map(|(symbol, _)| candidate(symbol)).collect()
     }
 
     /// Keywords that begin a statement or an item at this level of braces.
@@ -186,7 +193,7 @@ impl Index {
     }
 
     pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {
-        let detail = symbol.r#type.map_or_else(|| self.head(symbol), |r#type| r#type.to_string());
+        let detail = symbol.r#type.map_or_else(|| self.head(symbol), |r#type| self.phrase(r#type));
         let usage = format!("{}({})", symbol.name, symbol.arguments.join(", "));
         let snippet = if symbol.arguments.is_empty() && symbol.kind != SymbolKind::Law {
             symbol.name.clone()

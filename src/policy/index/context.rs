@@ -168,12 +168,13 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         }
         (TokenKind::Mark, ".") => Expected::Member(before.start),
         (TokenKind::Mark, "->") => Expected::Target,
-        (TokenKind::Mark, ":") => Expected::Type,
+        (TokenKind::Mark, ":") if is_declaring(statement) => Expected::Type,
         (TokenKind::Mark, "..") => Expected::Nothing,
         (TokenKind::Mark, "{") => Expected::Statement(level),
         (TokenKind::Mark, "(" | ",") if is_declaring(statement) => Expected::Nothing,
         (TokenKind::Mark, "*" | "/") if is_declaring(statement) => Expected::Dimension,
-        (TokenKind::Mark, "=") if matches!(head, Some("param" | "property")) => Expected::Nothing,
+        (TokenKind::Mark, "=") if matches!(head, Some("param" | "property" | "type")) => Expected::Nothing,
+        (TokenKind::Keyword, "or") if head == Some("type") => Expected::Nothing,
         (TokenKind::Mark, "=") if level == Level::Test && head == Some("set") => Expected::Nothing,
         (TokenKind::Mark, ")" | "}") => more(statement, level),
         (TokenKind::Mark, "|") if closes_a_norm(statement) => more(statement, level),
@@ -204,8 +205,8 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     match word {
         "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
-        "machine" | "library" | "whisker" | "param" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
-        | "test" | "property" => Expected::Nothing,
+        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
+        | "exit" | "test" | "property" => Expected::Nothing,
         "initial" => Expected::Initial,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
@@ -229,9 +230,18 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
 fn is_declaring(statement: &[Token<'_>]) -> bool {
     match statement.first().map(|token| token.text) {
         Some("law" | "state" | "whisker") => true,
-        Some("let") => !statement.iter().any(|token| token.is("=")),
+        Some("let") => !has_value(statement),
         _ => false,
     }
+}
+
+/// True if a derived value has its `=`. That of a default is in parentheses.
+fn has_value(statement: &[Token<'_>]) -> bool {
+    let mut depth = 0_i32;
+    statement.iter().any(|token| {
+        depth += i32::from(token.is("(")) - i32::from(token.is(")"));
+        depth == 0 && token.is("=")
+    })
 }
 
 /// The family of a property.
@@ -250,6 +260,12 @@ fn closes_a_norm(statement: &[Token<'_>]) -> bool {
     statement.iter().filter(|token| token.is("|")).count() % 2 == 0
 }
 
+/// True if the statement ends in the condition of a conditional expression.
+fn is_choice_open(statement: &[Token<'_>]) -> bool {
+    let count = |word: &str| statement.iter().skip(1).filter(|token| token.text == word).count();
+    count("if") > count("then")
+}
+
 /// The context after a complete value in a statement.
 fn more(statement: &[Token<'_>], level: Level) -> Expected {
     let has = |word: &str| statement.iter().any(|token| token.text == word);
@@ -261,10 +277,12 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("when" | "always") if !has("->") => &["for", "->", "and", "or"],
         Some("after") if !has("->") => &["->"],
         Some("param" | "needs" | "record") if !has("in") => &["in"],
+        Some("type") if has("=") => &["or"],
         Some("contour") if !has("of") => &["of"],
         Some("contour") if !has("apart") => &["apart"],
         Some("if") if has("}") => &["else"],
         Some("set") if level == Level::Test => &[],
+        _ if is_choice_open(statement) => &["then", "and", "or"],
         Some("if" | "let" | "set" | "var" | "expect") => &["and", "or"],
         Some("test") if !has("in") => return Expected::Only("in"),
         Some("property") if !has("over") => return Expected::Only("over"),

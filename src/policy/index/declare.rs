@@ -6,7 +6,8 @@
 
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind};
-use crate::policy::types::Type;
+use crate::policy::grammar::is_before_expression;
+use crate::policy::types::{Choices, Type};
 use vibrissa_runtime::units::{Dimension, parse_unit};
 
 use super::keyword::{Position, keyword};
@@ -103,6 +104,9 @@ impl<'t> Declared<'t> {
         if before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
             return;
         }
+        if token.text == "if" && before.is_some_and(|before| is_before_expression(before.text)) {
+            return;
+        }
         if !self.is_balanced && known.positions.contains(&Position::Item) && begins_line_unindented(text, token.start) {
             while self.frames.len() > 1 {
                 self.close(self.end);
@@ -116,6 +120,7 @@ impl<'t> Declared<'t> {
         let kind = match token.text {
             "machine" | "library" => SymbolKind::Machine,
             "param" => SymbolKind::Parameter,
+            "type" => SymbolKind::Enumeration,
             "law" => SymbolKind::Law,
             "state" => SymbolKind::State,
             "var" => SymbolKind::Memory,
@@ -131,6 +136,7 @@ impl<'t> Declared<'t> {
             match kind {
                 SymbolKind::Law | SymbolKind::State | SymbolKind::Derived => self.arguments(tokens, name + 1, declared),
                 SymbolKind::Parameter => self.symbols[declared].r#type = parameter_type(&tokens[name..]),
+                SymbolKind::Enumeration => self.choices(tokens, name + 1, declared),
                 _ => {}
             }
             // A list of whiskers: `whisker a, b`
@@ -200,11 +206,38 @@ impl<'t> Declared<'t> {
             if let Some(frame) = self.frame() {
                 frame.pending.push(index);
             }
-            at = end + 1;
+            at = behind_default(tokens, end + 1);
             if !tokens.get(at).is_some_and(|token| token.is(",")) {
                 break;
             }
             at += 1;
+        }
+    }
+
+    /// Reads `= value or value`.
+    fn choices(&mut self, tokens: &[Token<'t>], equals: usize, owner: usize) {
+        let mut at = equals + 1;
+        while tokens.get(at - 1).is_some_and(|before| before.is("=") || before.text == "or")
+            && let Some(name) = tokens.get(at).filter(|token| token.kind == TokenKind::Name)
+        {
+            let span = span_of(*name);
+            self.symbols.push(Symbol {
+                name: name.text.to_owned(),
+                kind: SymbolKind::Choice,
+                span,
+                whole: span,
+                arguments: Vec::new(),
+                owner: Some(owner),
+                // It is known only as a member of the enumeration.
+                visible: Span::new(span.start, span.start),
+                r#type: None,
+            });
+            at += 2;
+        }
+        let count = self.symbols.len() - owner - 1;
+        let declared = self.symbols[owner].span;
+        for symbol in &mut self.symbols[owner + 1..] {
+            symbol.r#type = Some(Type::Choice(Choices { declared, count }));
         }
     }
 
@@ -255,12 +288,37 @@ pub(super) fn span_of(token: Token<'_>) -> Span {
     Span::new(token.start, token.start + token.text.len())
 }
 
+/// The index of the token behind a default, `= value`, which ends with its list or at a comma. `at` if there is none.
+fn behind_default(tokens: &[Token<'_>], at: usize) -> usize {
+    if !tokens.get(at).is_some_and(|token| token.is("=")) {
+        return at;
+    }
+    let mut depth = 0_usize;
+    for (index, token) in tokens.iter().enumerate().skip(at) {
+        match token.text {
+            _ if token.kind != TokenKind::Mark => {}
+            "(" => depth += 1,
+            ")" | "," if depth == 0 => return index,
+            "{" | "}" => return index,
+            ")" => depth -= 1,
+            _ => {}
+        }
+    }
+    tokens.len()
+}
+
 fn begins_line_unindented(text: &str, start: usize) -> bool {
     start == 0 || text.as_bytes().get(start - 1) == Some(&b'\n')
 }
 
 /// The type of the parameter whose declaration begins with `tokens`.
 fn parameter_type(tokens: &[Token<'_>]) -> Option<Type> {
+    if let [_, equals, value, ..] = tokens
+        && equals.is("=")
+        && ["true", "false"].contains(&value.text)
+    {
+        return Some(Type::Truth);
+    }
     let value = tokens.get(1..)?.iter().take(3).position(|token| token.kind == TokenKind::Number)? + 1;
     let dimension = match tokens.get(value + 1) {
         Some(unit) if unit.kind == TokenKind::Unit => parse_unit(&unit.text.replace('*', " ")).ok()?.dimension(),

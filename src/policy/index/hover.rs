@@ -66,15 +66,30 @@ impl Index {
     }
 
     fn explain(&self, symbol: &Symbol) -> String {
-        let types = symbol.r#type.map(type_line).unwrap_or_default();
+        let types = symbol.r#type.map(|r#type| self.type_line(r#type)).unwrap_or_default();
         let file = self.file_of(symbol).map(|file| format!("from `{file}`")).unwrap_or_default();
         paragraphs(&[code(&self.head(symbol)), types, self.description(symbol), file])
     }
 
-    /// The laws and derived values of a file.
+    /// The type and its units.
+    fn type_line(&self, r#type: Type) -> String {
+        if let Type::Choice(_) = r#type { self.phrase(r#type) } else { type_line(r#type) }
+    }
+
+    /// A type in texts.
+    pub(super) fn phrase(&self, r#type: Type) -> String {
+        let is_it = |symbol: &&Symbol, declared| symbol.kind == SymbolKind::Enumeration && symbol.span == declared;
+        let item = match r#type {
+            Type::Choice(choices) => self.symbols.iter().find(|symbol| is_it(symbol, choices.declared)),
+            _ => None,
+        };
+        item.map_or_else(|| r#type.to_string(), |item| format!("a `{}`", item.name))
+    }
+
+    /// The laws, derived values and enumerations of a file.
     fn explain_file(&self, part: usize) -> String {
         let offered = exports(&self.source, part);
-        let heads: Vec<String> = offered.iter().map(|symbol| self.head(symbol)).collect();
+        let heads: Vec<String> = offered.iter().map(|(symbol, _)| self.head(symbol)).collect();
         let name = self.source.part_name(part);
         let about = heading(self.source.slice(self.source.part_span(part)));
         paragraphs(&[format!("`{name}`"), about, code(&heads.join("\n"))])

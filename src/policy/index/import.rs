@@ -8,6 +8,7 @@ use crate::diagnostic::{Source, Span};
 use crate::policy::ast::{From, Name, Use};
 use crate::policy::format::{Token, TokenKind};
 use crate::policy::path;
+use crate::policy::types::{Choices, Type};
 
 use super::code_tokens;
 use super::declare::{declare, span_of};
@@ -82,23 +83,47 @@ fn named(token: Token<'_>) -> Name {
 pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
     let Some(part) = import.part(source) else { return };
     let everywhere = source.part_span(0);
-    for symbol in exports(source, part) {
+    for (symbol, parts) in exports(source, part) {
         let is_chosen =
             import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
         if is_chosen && symbols[own..].iter().all(|known| known.span != symbol.span) {
+            let owner = symbols.len();
             symbols.push(Symbol { visible: everywhere, ..symbol });
+            // They are known only through their owner.
+            let only_there = |part: &Symbol| Span::new(part.span.start, part.span.start);
+            symbols.extend(parts.into_iter().map(|part| Symbol {
+                owner: Some(owner),
+                visible: only_there(&part),
+                ..part
+            }));
         }
     }
 }
 
-/// The exported symbols of a part of a source: its laws and derived values.
-pub(super) fn exports(source: &Source, part: usize) -> Vec<Symbol> {
+/// The exported symbols of a part of a source: its laws, derived values and enumerations, each with its arguments or
+/// values.
+pub(super) fn exports(source: &Source, part: usize) -> Vec<(Symbol, Vec<Symbol>)> {
     let span = source.part_span(part);
     let text = source.slice(span);
-    let symbols = declare(text, &code_tokens(text), true).finish(text).into_iter();
-    let own = symbols.filter(|symbol| matches!(symbol.kind, SymbolKind::Law | SymbolKind::Derived));
+    let symbols = declare(text, &code_tokens(text), true).finish(text);
     let moved = |inner: Span| Span::new(span.start + inner.start, span.start + inner.end);
-    own.map(|symbol| Symbol { span: moved(symbol.span), whole: moved(symbol.whole), ..symbol }).collect()
+    let moved = |symbol: &Symbol| {
+        let r#type = symbol.r#type.map(|r#type| match r#type {
+            Type::Choice(choices) => Type::Choice(Choices { declared: moved(choices.declared), ..choices }),
+            other => other,
+        });
+        Symbol { span: moved(symbol.span), whole: moved(symbol.whole), r#type, ..symbol.clone() }
+    };
+    let is_own =
+        |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Law | SymbolKind::Derived | SymbolKind::Enumeration);
+    let own = symbols.iter().enumerate().filter(|(_, symbol)| is_own(symbol));
+    let with_parts = own.map(|(index, symbol)| {
+        let parts = symbols
+            .iter()
+            .filter(|part| matches!(part.kind, SymbolKind::Choice | SymbolKind::Argument) && part.owner == Some(index));
+        (moved(symbol), parts.map(moved).collect())
+    });
+    with_parts.collect()
 }
 
 /// The description of a file in the comment at its beginning.

@@ -89,19 +89,19 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 65] = [
+pub(super) const KEYWORDS: [Keyword; 68] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
         FILE,
         "library ${1:name}",
-        "Begins a library, a file of laws and derived values for other files, and names it.",
+        "Begins a library, a file of laws, derived values and enumerations for other files, and names it.",
     ),
     entry(
         "use",
         ITEM,
         "use ${1:std.swipe}",
-        "Imports laws and derived values of another file: all, or only those in parentheses.",
+        "Imports laws, derived values and enumerations of another file: all, or only those in parentheses.",
     ),
     entry("whisker", ITEM, "whisker ${1:name}", "Binds whiskers of the rig by name."),
     entry(
@@ -134,7 +134,13 @@ pub(super) const KEYWORDS: [Keyword; 65] = [
         "param",
         ITEM,
         "param ${1:name} = ${2:50 mm/s} in ${3:1} .. ${4:200 mm/s}",
-        "A number that a run may set within the range.",
+        "A number that a run may set within the range, or `true`, `false` or a value of an enumeration.",
+    ),
+    entry(
+        "type",
+        ITEM,
+        "type ${1:Side} = ${2:left} or ${3:right}",
+        "An enumeration with its values, which are read as `Side.left`.",
     ),
     entry(
         "initial",
@@ -222,7 +228,14 @@ pub(super) const KEYWORDS: [Keyword; 65] = [
         "expect ${1:run.completed}",
         "A condition that must hold at the end of the run.",
     ),
-    entry("if", STATEMENT, "if ${1:condition} {\n  ${0}\n}", "Executes the first block whose condition holds."),
+    entry(
+        "if",
+        STATEMENT,
+        "if ${1:condition} {\n  ${0}\n}",
+        "Executes the first block whose condition holds. As a value, `if condition then a else b` chooses one of two.",
+    ),
+    entry("if", VALUE, "if ${1:condition} then ${2:a} else ${3:b}", "One of two values. Both are always computed."),
+    entry("then", INSIDE, "then ${1:a} else ${2:b}", "The values between which a condition chooses."),
     entry("do", STATEMENT, "do ${1:law}(${2:w})", "Executes the statements of a law."),
     entry(
         "record",
@@ -244,7 +257,12 @@ pub(super) const KEYWORDS: [Keyword; 65] = [
     ),
     entry("hold", COMMAND, "hold", "Keeps the last command."),
     entry("stop", COMMAND, "stop", "Stops the platform and holds its pose."),
-    entry("else", INSIDE, "else {\n  ${0}\n}", "The block that is executed if no preceding condition holds."),
+    entry(
+        "else",
+        INSIDE,
+        "else {\n  ${0}\n}",
+        "The block that is executed, or the value, if no preceding condition holds.",
+    ),
     entry("for", INSIDE, "for ${1:100 ms}", "The time for which the condition must have held at every tick."),
     entry(
         "in",

@@ -11,6 +11,7 @@ mod declare;
 mod hover;
 mod import;
 mod keyword;
+mod operands;
 mod origin;
 mod rename;
 mod resolve;

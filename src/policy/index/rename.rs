@@ -135,6 +135,9 @@ impl Index {
 /// True if both names are visible at one position, so that they must differ. The machine's name is independent of all
 /// others.
 fn meet(a: &Symbol, b: &Symbol) -> bool {
+    if a.kind == SymbolKind::Choice || b.kind == SymbolKind::Choice {
+        return a.kind == b.kind && a.owner == b.owner;
+    }
     let (a_reach, b_reach) = (a.visible.to(a.span), b.visible.to(b.span));
     let apart = a_reach.end <= b_reach.start || b_reach.end <= a_reach.start;
     !apart && a.kind != SymbolKind::Machine && b.kind != SymbolKind::Machine

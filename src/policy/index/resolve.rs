@@ -12,6 +12,7 @@ use vibrissa_runtime::units::parse_unit;
 use super::declare::span_of;
 use super::import::Import;
 use super::keyword::{Keyword, Position, keyword};
+use super::operands::{Operands, Owner};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
 
@@ -21,15 +22,6 @@ pub(super) struct Resolved {
     pub(super) uses: Vec<Use>,
     /// The owner before each `.`, if it is known, by the byte of the `.`.
     pub(super) owners: HashMap<usize, Owner>,
-}
-
-/// The operand before a `.`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Owner {
-    /// A value of this type.
-    Value(Type),
-    /// This symbol, a state.
-    State(usize),
 }
 
 /// Resolves every word of `tokens`. They are the tokens of the first part of a source, without comments. `imports` are
@@ -43,8 +35,7 @@ pub(super) fn resolve(
 ) -> Resolved {
     let mut names = Names::new(symbols);
     let mut resolved = Resolved::default();
-    // The operand that ends with the previous token, and the operand before each open parenthesis.
-    let (mut operand, mut calls): (Option<Owner>, Vec<Option<Owner>>) = (None, Vec::new());
+    let mut operands = Operands::new(symbols);
     // End of the current type name.
     let mut type_end = 0;
     // The family whose ranges are being read.
@@ -59,10 +50,11 @@ pub(super) fn resolve(
         let is_before = |text: &str| before.is_some_and(|before| before.text == text);
         let is_word = matches!(token.kind, TokenKind::Name | TokenKind::Keyword);
         let meaning = match token.kind {
-            _ if is_word && is_before(":") => {
+            _ if is_word && is_before(":") && names.is_declaration(tokens, index) => {
                 let named = type_name(tokens, index);
                 type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
-                named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type)
+                let built_in = named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type);
+                built_in.or_else(|| names.enumeration(token.text).map(|index| Meaning::Symbol(index, Role::Reads)))
             }
             TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
             TokenKind::Name if is_before("mark") || is_before("needs") => {
@@ -82,10 +74,21 @@ pub(super) fn resolve(
             TokenKind::Name if let Some(family) = family => {
                 Entry::parameter(family, token.text).map(Meaning::FamilyParameter)
             }
-            TokenKind::Name if is_before(".") => operand.and_then(|owner| match owner {
+            TokenKind::Name if is_before(".") => operands.last.and_then(|owner| match owner {
                 Owner::Value(owner) => member(owner, token.text),
+                Owner::Enumeration(owner) => {
+                    let is_it = |symbol: &Symbol| symbol.owner == Some(owner) && symbol.name == token.text;
+                    symbols.iter().position(is_it).map(|choice| Meaning::Symbol(choice, Role::Reads))
+                }
                 Owner::State(_) => names.state(token.text).map(|state| Meaning::Symbol(state, Role::Reads)),
             }),
+            TokenKind::Name
+                if tokens.get(index + 1).is_some_and(|next| next.is(":"))
+                    && let Some(argument) = operands.argument(token.text) =>
+            {
+                let is_declared = symbols[argument].span == span_of(*token);
+                Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
+            }
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(span_of(*token), token.text, role)
@@ -99,26 +102,10 @@ pub(super) fn resolve(
         if token.is("{") {
             family = None;
         }
-        operand = match (token.kind, token.text, meaning) {
-            (TokenKind::Mark, ".", _) => {
-                resolved.owners.extend(operand.map(|owner| (token.start, owner)));
-                operand
-            }
-            (TokenKind::Mark, "(", _) => {
-                let is_call = before.is_some_and(|before| before.kind == TokenKind::Name);
-                calls.push(operand.filter(|_| is_call));
-                None
-            }
-            (TokenKind::Mark, ")", _) => calls.pop().flatten(),
-            (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
-            (TokenKind::Name, "run", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Run)),
-            (_, _, Some(Meaning::Symbol(symbol, _))) if symbols[symbol].kind == SymbolKind::State => {
-                Some(Owner::State(symbol))
-            }
-            (_, _, Some(Meaning::Symbol(symbol, _))) => symbols[symbol].r#type.map(Owner::Value),
-            (_, _, Some(Meaning::Member(_, member))) => Some(Owner::Value(member.r#type)),
-            _ => None,
-        };
+        if token.is(".") {
+            resolved.owners.extend(operands.last.map(|owner| (token.start, owner)));
+        }
+        operands.advance(before, *token, meaning);
         if is_word || token.kind == TokenKind::Unit {
             resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
@@ -174,12 +161,18 @@ struct Names<'s> {
 
 impl<'s> Names<'s> {
     fn new(symbols: &'s [Symbol]) -> Self {
-        // The machine's name cannot be referred to.
-        let mut order: Vec<usize> =
-            (0..symbols.len()).filter(|&index| symbols[index].kind != SymbolKind::Machine).collect();
+        // The machine's name cannot be referred to, and a value of an enumeration only as its member.
+        let is_unknown_alone = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Machine | SymbolKind::Choice);
+        let mut order: Vec<usize> = (0..symbols.len()).filter(|&index| !is_unknown_alone(&symbols[index])).collect();
         order.sort_by_key(|&index| symbols[index].visible.start);
         let declared = symbols.iter().enumerate().map(|(index, symbol)| (symbol.span, index)).collect();
         Self { symbols, declared, order, begun: 0, known: HashMap::new() }
+    }
+
+    /// True if the `:` before a token follows the name of a declared argument.
+    fn is_declaration(&self, tokens: &[Token<'_>], index: usize) -> bool {
+        let name = index.checked_sub(2).and_then(|name| tokens.get(name));
+        name.is_some_and(|name| self.declared.contains_key(&span_of(*name)))
     }
 
     fn advance(&mut self, at: usize) {
@@ -211,6 +204,14 @@ impl<'s> Names<'s> {
     }
 
     fn state(&self, name: &str) -> Option<usize> {
-        self.known.get(name)?.iter().copied().rfind(|&index| self.symbols[index].kind == SymbolKind::State)
+        self.of_kind(name, SymbolKind::State)
+    }
+
+    fn enumeration(&self, name: &str) -> Option<usize> {
+        self.of_kind(name, SymbolKind::Enumeration)
+    }
+
+    fn of_kind(&self, name: &str, kind: SymbolKind) -> Option<usize> {
+        self.known.get(name)?.iter().copied().rfind(|&index| self.symbols[index].kind == kind)
     }
 }

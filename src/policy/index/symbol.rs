@@ -17,6 +17,10 @@ pub enum SymbolKind {
     Contour,
     /// A parameter.
     Parameter,
+    /// An enumeration.
+    Enumeration,
+    /// A value of an enumeration.
+    Choice,
     /// A derived value.
     Derived,
     /// A law.
@@ -34,12 +38,12 @@ pub enum SymbolKind {
 impl SymbolKind {
     /// True if the whole policy knows the name.
     pub(super) fn is_item(self) -> bool {
-        !matches!(self, Self::Argument | Self::Local | Self::Memory)
+        !matches!(self, Self::Argument | Self::Local | Self::Memory | Self::Choice)
     }
 
     /// True if the name means a value.
     pub(super) fn is_value(self) -> bool {
-        !matches!(self, Self::Machine | Self::Law | Self::State)
+        !matches!(self, Self::Machine | Self::Law | Self::State | Self::Enumeration | Self::Choice)
     }
 }
 

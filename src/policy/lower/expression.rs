@@ -46,6 +46,16 @@ impl<'f> Compiler<'f> {
                 let a = self.expect(scope, inner, Type::Truth)?;
                 Some(Value { r#type: Type::Truth, register: self.code.scalar(|to| Op::Not { to, a: a.register }) })
             }
+            Kind::Named { name, value } => {
+                self.expression(scope, value);
+                let message = "this value takes no name";
+                let diagnostic = Diagnostic::error("P0304", message, name.span, "the name of an argument");
+                self.report(
+                    diagnostic.hint("only arguments of laws, derived values and states are named; leave out the name"),
+                );
+                None
+            }
+            Kind::If { condition, value, otherwise } => self.choice(scope, condition, [value, otherwise]),
             Kind::Binary { operator, left, right } => {
                 let (left_value, right_value) = (self.expression(scope, left), self.expression(scope, right));
                 self.binary(*operator, (left_value?, left.span), (right_value?, right.span))
@@ -59,11 +69,12 @@ impl<'f> Compiler<'f> {
         if value.r#type == wanted {
             return Some(value);
         }
+        let found = self.phrase(value.r#type);
         let mut diagnostic = Diagnostic::error(
             "P0301",
-            format!("this must be {wanted}, not {}", value.r#type),
+            format!("this must be {}, not {found}", self.phrase(wanted)),
             expression.span,
-            format!("is {}", value.r#type),
+            format!("is {found}"),
         );
         match (wanted, value.r#type) {
             (Type::Scalar(wanted), Type::Scalar(Dimension::NUMBER)) => {
@@ -151,7 +162,7 @@ impl<'f> Compiler<'f> {
             }
         };
         if values.is_some() {
-            self.report_call(format!("`{}` is {} and takes no values", name.text, value.r#type), span);
+            self.report_call(format!("`{}` is {} and takes no values", name.text, self.phrase(value.r#type)), span);
             return None;
         }
         Some(value)
@@ -170,10 +181,20 @@ impl<'f> Compiler<'f> {
         name: &'f Name,
         values: Option<&'f [Expression]>,
     ) -> Option<Value> {
+        if let Kind::Root { name: of, values: None } = &owner.kind
+            && scope.get(&of.text).is_none()
+            && let Some(&item) = self.names().enumerations.get(of.text.as_str())
+        {
+            if values.is_some() {
+                self.report_call(format!("`{}.{}` takes no values", of.text, name.text), name.span);
+                return None;
+            }
+            return self.choice_value(item, name);
+        }
         let value = self.expression(scope, owner)?;
         let members = builtins::members(value.r#type);
         let Some(&member) = members.iter().find(|member| member.name == name.text) else {
-            let message = format!("{} has no `{}`", value.r#type, name.text);
+            let message = format!("{} has no `{}`", self.phrase(value.r#type), name.text);
             let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
             let mut diagnostic = did_you_mean(diagnostic, &name.text, members.iter().map(|member| member.name));
             if members.is_empty() {
@@ -244,6 +265,35 @@ impl<'f> Compiler<'f> {
         Some(Value { r#type: member.r#type, register })
     }
 
+    /// Lowers a conditional expression. Both sides are always computed.
+    fn choice(&mut self, scope: &Scope<'f>, condition: &'f Expression, sides: [&'f Expression; 2]) -> Option<Value> {
+        let condition = self.expect(scope, condition, Type::Truth);
+        let [first, second] = sides.map(|side| self.expression(scope, side));
+        let (condition, first, second) = (condition?.register, first?, second?);
+        let r#type = first.r#type;
+        if r#type != second.r#type {
+            let [one, other] = [r#type, second.r#type].map(|r#type| self.phrase(r#type));
+            let message = format!("the sides of an `if` differ: {one} and {other}");
+            let diagnostic = Diagnostic::error("P0301", message, sides[1].span, format!("is {other}"))
+                .note(sides[0].span, format!("is {one}"));
+            self.report(match binary_hint(Binary::Add, r#type, second.r#type) {
+                Some(hint) => diagnostic.hint(hint),
+                None => diagnostic.hint("both sides must have the same type"),
+            });
+            return None;
+        }
+        if let Type::Body | Type::Run = r#type {
+            return self.mismatch(sides[0].span, r#type, "an `if` chooses between values");
+        }
+        let width = r#type.width();
+        let to = self.code.allocate(width);
+        for part in 0..width {
+            let (to, a, b) = (to + part, first.register + part, second.register + part);
+            self.code.push(Op::Select { to, condition, a, b });
+        }
+        Some(Value { r#type, register: to })
+    }
+
     fn norm(&mut self, scope: &Scope<'f>, inner: &'f Expression) -> Option<Value> {
         let Value { r#type, register: a } = self.expression(scope, inner)?;
         match r#type {
@@ -281,7 +331,7 @@ impl<'f> Compiler<'f> {
                 truth(self.code.scalar(|to| Op::LessOrEqual { to, a: b, b: a }))
             }
             (Binary::Equal | Binary::Unequal, l, r)
-                if l == r && matches!(l, Type::Truth | Type::Whisker | Type::Scalar(_)) =>
+                if l == r && matches!(l, Type::Truth | Type::Choice(_) | Type::Whisker | Type::Scalar(_)) =>
             {
                 let equal = self.code.scalar(|to| Op::Equal { to, a, b });
                 truth(if operator == Binary::Equal { equal } else { self.code.scalar(|to| Op::Not { to, a: equal }) })
@@ -319,10 +369,12 @@ impl<'f> Compiler<'f> {
                 Some(Value { r#type, register: self.code.vector(|to| Op::DivideVector { to, a, b }) })
             }
             (_, left_type, right_type) => {
+                let hint = binary_hint(operator, left_type, right_type);
+                let [left_type, right_type] = [left_type, right_type].map(|r#type| self.phrase(r#type));
                 let message = format!("`{}` does not apply to {left_type} and {right_type}", operator.symbol());
                 let mut diagnostic = Diagnostic::error("P0301", message, right_span, format!("is {right_type}"))
                     .note(left_span, format!("is {left_type}"));
-                if let Some(hint) = binary_hint(operator, left_type, right_type) {
+                if let Some(hint) = hint {
                     diagnostic = diagnostic.hint(hint);
                 }
                 self.report(diagnostic);
@@ -342,7 +394,8 @@ impl<'f> Compiler<'f> {
 
     /// Reports a value of the wrong type.
     pub(super) fn mismatch<T>(&mut self, span: Span, found: Type, rule: &str) -> Option<T> {
-        self.report(Diagnostic::error("P0301", rule, span, format!("is {found}")));
+        let label = format!("is {}", self.phrase(found));
+        self.report(Diagnostic::error("P0301", rule, span, label));
         None
     }
 }

@@ -8,6 +8,7 @@ use vibrissa_runtime::machine::Op;
 use vibrissa_runtime::units::Dimension;
 
 use super::Compiler;
+use super::call::{Callee, Given, usage};
 use super::scope::Scope;
 
 impl<'f> Compiler<'f> {
@@ -105,7 +106,7 @@ impl<'f> Compiler<'f> {
                 scalar(limit, self.code.scalar(|to| Op::Pid { to, a: register(0), gains, memory }))
             }
             _ => {
-                let found: Vec<String> = types.iter().map(ToString::to_string).collect();
+                let found: Vec<String> = types.iter().map(|&r#type| self.phrase(r#type)).collect();
                 let message = match found.as_slice() {
                     [] => format!("`{usage}` needs its values"),
                     _ => format!("`{usage}` does not take {}", found.join(", ")),
@@ -194,18 +195,19 @@ impl<'f> Compiler<'f> {
         values: &'f [Expression],
         span: Span,
     ) -> Option<Value> {
-        let inner = self.arguments(scope, &derived.name, &derived.arguments, values, span)?;
+        let inner = self.arguments(scope, file, &derived.name, &derived.arguments, values, span)?;
         self.inlining.push(&derived.name);
         let value = self.within(file, |compiler| compiler.expression(&inner, &derived.value));
         self.inlining.pop();
         value
     }
 
-    /// The scope of a law or derived value with `values` for its arguments. `None` if they do not fit, or if it has an
+    /// The scope of a law or derived value of a file with `values` for its arguments. `None` if they do not fit, or if it has an
     /// error or is recursive. All of these have been reported.
     pub(super) fn arguments(
         &mut self,
         scope: &Scope<'f>,
+        file: usize,
         name: &'f Name,
         arguments: &'f [Argument],
         values: &'f [Expression],
@@ -219,19 +221,24 @@ impl<'f> Compiler<'f> {
             ));
             return None;
         }
-        if values.len() != arguments.len() {
-            let message = format!("`{}` takes {}, not {}", name.text, count(arguments.len()), values.len());
-            let names: Vec<&str> = arguments.iter().map(|argument| argument.name.text.as_str()).collect();
-            let usage = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
-            let diagnostic = Diagnostic::error("P0304", message, span, "used here").note(name.span, "made here");
-            self.report(diagnostic.hint(format!("write `{}{usage}`", name.text)));
-            return None;
-        }
+        let what = format!("`{}`", name.text);
+        let given = match (Callee { what: &what, label: "used here" }).values(arguments, values, span) {
+            Ok(given) => given,
+            Err(diagnostic) => {
+                let hint = format!("write `{}`", usage(&name.text, arguments));
+                self.report(diagnostic.note(name.span, "made here").hint(hint));
+                return None;
+            }
+        };
         let mut inner = Scope::default();
         let mut complete = true;
-        for (argument, value) in arguments.iter().zip(values) {
+        for (argument, Given { value, is_default }) in arguments.iter().zip(given) {
             // An unknown type is reported where the law is declared.
-            let value = match Type::named(&argument.type_name) {
+            let r#type = self.within(file, |compiler| compiler.named_type(&argument.type_name));
+            let value = match r#type {
+                Some(r#type) if is_default => {
+                    self.within(file, |compiler| compiler.expect(&Scope::default(), value, r#type))
+                }
                 Some(r#type) => self.expect(scope, value, r#type),
                 None => self.expression(scope, value).and(None),
             };
@@ -243,14 +250,6 @@ impl<'f> Compiler<'f> {
             return None;
         }
         complete.then_some(inner)
-    }
-}
-
-pub(super) fn count(values: usize) -> String {
-    match values {
-        0 => "no values".to_owned(),
-        1 => "1 value".to_owned(),
-        more => format!("{more} values"),
     }
 }
 

@@ -3,8 +3,10 @@
 //! Laws and derived values are inlined, so a program has no calls. Each is first checked separately, with unknown
 //! arguments. Its errors are reported there, and not again where it is used.
 
+mod call;
 mod code;
 mod contour;
+mod enumeration;
 mod expression;
 mod function;
 mod hierarchy;
@@ -24,7 +26,7 @@ use std::collections::{HashMap, HashSet};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use vibrissa_runtime::machine::{Program, Register};
 
-use super::ast::{Argument, Expression, Name, Statement, TypeName};
+use super::ast::{Argument, Enumeration, Expression, Name, Statement, TypeName};
 use super::load::Files;
 use super::suggestion::did_you_mean;
 use super::test::{FigureRegister, PolicyTest};
@@ -43,6 +45,8 @@ pub(super) struct Lowered {
     pub(super) tests: Vec<PolicyTest>,
     /// The arguments of each state: names, types and registers.
     pub(super) arguments: Vec<Vec<(String, Value)>>,
+    /// The names of the values of each enumeration, by the span of its name.
+    pub(super) choices: HashMap<Span, Vec<String>>,
 }
 
 /// The types of names, by the span of their declaration.
@@ -67,6 +71,7 @@ fn in_order(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
 pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     let program = structure::machine(&mut compiler, files);
+    let choices = compiler.choices();
     let mut states: Vec<StateEntry> = compiler.states.into_values().collect();
     states.sort_by_key(|state| state.index);
     let tests = compiler.tests;
@@ -75,7 +80,7 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
         Some(program) if diagnostics.is_empty() => {
             let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
-            Ok(Lowered { program, tests, arguments: arguments.collect() })
+            Ok(Lowered { program, tests, arguments: arguments.collect(), choices })
         }
         _ => Err(diagnostics),
     }
@@ -120,6 +125,8 @@ struct Compiler<'f> {
     diagnostics: Vec<Diagnostic>,
     /// The names of each file, the policy first.
     files: Vec<Names<'f>>,
+    /// The enumerations of all files, by the span of their names.
+    enumerations: HashMap<Span, &'f Enumeration>,
     /// The number of the current file.
     current_file: usize,
     /// The types of names, if they are requested.
@@ -158,6 +165,7 @@ impl<'f> Compiler<'f> {
             code: Code::new(),
             diagnostics: Vec::new(),
             files: Vec::new(),
+            enumerations: HashMap::new(),
             current_file: 0,
             types: None,
             states: HashMap::new(),
@@ -235,16 +243,18 @@ impl<'f> Compiler<'f> {
 
     /// The type with a name, if there is one.
     fn type_of(&mut self, name: &TypeName) -> Option<Type> {
-        let found = Type::named(name);
+        let found = self.named_type(name);
         if found.is_none() {
-            self.report(unknown_type(name));
+            let own: Vec<&str> = self.names().enumerations.keys().copied().collect();
+            let diagnostic = unknown_type(name, &own);
+            self.report(diagnostic);
         }
         found
     }
 }
 
-/// The diagnostic for an unknown type.
-fn unknown_type(name: &TypeName) -> Diagnostic {
+/// The diagnostic for an unknown type. `own` are the enumerations of the file.
+fn unknown_type(name: &TypeName, own: &[&str]) -> Diagnostic {
     let dimensions = DIMENSIONS.iter().map(|&(known, _)| known);
     let list = dimensions.clone().collect::<Vec<_>>().join(", ");
     let is_dimension = |part: &Name| dimension(&part.text).is_some();
@@ -258,7 +268,8 @@ fn unknown_type(name: &TypeName) -> Diagnostic {
         None if name.factors.is_empty() => {
             let message = format!("there is no type `{}`", name.base.text);
             let diagnostic = Diagnostic::error("P0204", message, name.base.span, "unknown type");
-            did_you_mean(diagnostic, &name.base.text, dimensions.chain(["whisker", "contour", "truth", "vector"]))
+            let known = dimensions.chain(["whisker", "contour", "truth", "vector"]).chain(own.iter().copied());
+            did_you_mean(diagnostic, &name.base.text, known)
                 .hint(format!("types are whisker, contour, truth, {list}, vector, and `vector of` a dimension"))
         }
         _ => match std::iter::once(first)

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Derived, File, Law, Name, Use};
+use crate::policy::ast::{Derived, Enumeration, File, Law, Name, Use};
 use crate::policy::load::Files;
 use crate::policy::suggestion::did_you_mean;
 
@@ -24,6 +24,7 @@ pub(super) struct Names<'f> {
     /// Derived values and laws, each with the number of its file.
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
+    pub(super) enumerations: HashMap<&'f str, &'f Enumeration>,
 }
 
 impl Names<'_> {
@@ -72,6 +73,7 @@ impl<'f> Compiler<'f> {
         let parameters = file.parameters.iter().map(|parameter| &parameter.name);
         let derived = file.derived.iter().map(|derived| &derived.name);
         let laws = file.laws.iter().map(|law| &law.name);
+        let enumerations = file.enumerations.iter().map(|item| &item.name);
         let states = file.states.iter().map(|state| &state.name);
         let memory = file.memory.iter().map(|(name, _)| name);
         let contours = file.contours.iter().map(|contour| &contour.name);
@@ -82,6 +84,7 @@ impl<'f> Compiler<'f> {
             .chain(parameters)
             .chain(derived)
             .chain(laws)
+            .chain(enumerations)
             .chain(states)
             .chain(memory)
         {
@@ -97,11 +100,16 @@ impl<'f> Compiler<'f> {
         names.memory = file.memory.iter().map(|(name, _)| name.text.as_str()).collect();
         names.derived = file.derived.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
+        names.enumerations = file.enumerations.iter().map(|item| (item.name.text.as_str(), item)).collect();
+        for item in &file.enumerations {
+            self.enumerations.insert(item.name.span, item);
+            self.check_choices(item);
+        }
     }
 
     /// Imports the items of the library `other`, file `number`, for the `use` `used`.
     fn import(&mut self, used: &'f Use, number: usize, other: &'f File) {
-        let own = || other.derived.iter().map(|item| &item.name).chain(other.laws.iter().map(|item| &item.name));
+        let own = || other.exports();
         let chosen: Vec<(&'f Name, Span)> = match &used.names {
             None => own().map(|name| (name, used.span)).collect(),
             Some(names) => names.iter().filter_map(|name| self.choose(name, other, own())).collect(),
@@ -123,8 +131,10 @@ impl<'f> Compiler<'f> {
                     let text = name.text.as_str();
                     let derived = other.derived.iter().find(|item| item.name.span == name.span);
                     let law = other.laws.iter().find(|item| item.name.span == name.span);
+                    let enumeration = other.enumerations.iter().find(|item| item.name.span == name.span);
                     let names = self.names_mut();
                     names.items.insert(text, name.span);
+                    names.enumerations.extend(enumeration.map(|item| (text, item)));
                     names.derived.extend(derived.map(|item| (text, (number, item))));
                     names.laws.extend(law.map(|item| (text, (number, item))));
                 }

@@ -90,6 +90,9 @@ impl<'f> Compiler<'f> {
         }
         let diagnostic = if self.names().laws.contains_key(text.as_str()) {
             diagnostic.hint(format!("`{text}` is a law: write `do {text}(\u{2026})`"))
+        } else if let Some(item) = self.names().enumerations.get(text.as_str()) {
+            let example = item.values.first().map_or("", |value| &value.text);
+            diagnostic.hint(format!("`{text}` is a type; write one of its values, such as `{text}.{example}`"))
         } else if text == "run" {
             diagnostic.hint("`run` can only be used in the expectations of a `test`")
         } else if let Some(memory) = self.declaring.iter().find(|(known, _)| known.text == *text) {
@@ -120,6 +123,7 @@ impl<'f> Compiler<'f> {
         } else {
             let known = scope.names.iter().map(|(known, _)| known.text.as_str());
             let known = known.chain(self.names().globals.keys().copied()).chain(self.names().derived.keys().copied());
+            let known = known.chain(self.names().enumerations.keys().copied());
             let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time"]);
             let diagnostic = in_the_standard_library(did_you_mean(diagnostic, text, known), text);
             let is_whisker =

@@ -170,7 +170,7 @@ impl<'f> Compiler<'f> {
             self.report(in_the_standard_library(diagnostic, &name.text));
             return None;
         };
-        let mut inner = self.arguments(scope, &law.name, &law.arguments, values, span)?;
+        let mut inner = self.arguments(scope, file, &law.name, &law.arguments, values, span)?;
         self.inlining.push(&law.name);
         let used = self.outer_use;
         self.outer_use = used.or(Some(span));

@@ -117,13 +117,13 @@ impl<'f> Compiler<'f> {
     fn parameters(&mut self, file: &'f File) -> Vec<machine::Parameter> {
         let mut parameters = Vec::new();
         for parameter in &file.parameters {
-            let meaning = self.parameter(parameter).map(|checked| {
+            let meaning = self.parameter(parameter).map(|(checked, r#type)| {
                 let register = self.code.allocate(1);
                 self.code.initial[usize::from(register)] = checked.default;
-                let r#type = Type::Scalar(checked.dimension);
                 parameters.push(checked);
                 Value { r#type, register }
             });
+            self.note_type(&parameter.name, meaning);
             self.names_mut().globals.insert(&parameter.name.text, meaning);
         }
         parameters
@@ -184,6 +184,7 @@ impl<'f> Compiler<'f> {
     /// Lowers a law or derived value with unknown arguments, discards the code, and records an error.
     fn check(&mut self, name: &'f Name, arguments: &'f [Argument], write: impl FnOnce(&mut Self, &mut Scope<'f>)) {
         let (mark, faults) = (self.code.mark(), self.diagnostics.len());
+        self.check_defaults(arguments);
         let mut scope = self.scope_of_arguments(arguments);
         if !self.erroneous.contains(&name.span) {
             self.inlining.push(name);
@@ -232,6 +233,7 @@ impl<'f> Compiler<'f> {
             }
             let start = state.parent.map_or(own.len(), |parent| ends[parent]);
             scope.truncate(start);
+            self.check_defaults(&state.arguments);
             self.bind_arguments(&mut scope, start, &state.arguments);
             let names = state.arguments.iter().map(|argument| &argument.name.text);
             let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();

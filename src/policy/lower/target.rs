@@ -9,13 +9,13 @@ use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::Value;
 use vibrissa_runtime::machine::{self, Block};
 
-use super::function::count;
+use super::call::{Callee, Given, usage};
 use super::scope::{Meaning, Scope};
 use super::structure::{FAILURE, SUCCESS};
 use super::{Compiler, StateEntry};
 
 /// The values for a state, and its arguments.
-type ArgumentValues<'f> = (&'f [Expression], Vec<(String, Meaning)>);
+type ArgumentValues<'f> = (Vec<Given<'f>>, Vec<(String, Meaning)>);
 
 impl<'f> Compiler<'f> {
     /// Lowers the target of a transition of the state `from`, or of a global one.
@@ -85,8 +85,8 @@ impl<'f> Compiler<'f> {
         }
         let entered = self.hierarchy.entered(from, state);
         let mut given = self.outer_values(target, state, &entered)?;
-        self.check_count(&target.name, target.span, &target.values, &arguments, &entered)?;
-        given.push((&target.values, arguments));
+        let values = self.given(state, target.span, &target.values, &entered)?;
+        given.push((values, arguments));
         let arguments = self.pass_arguments(scope, &given)?;
         Some(machine::Target::State { state, arguments, resume: target.resume.is_some() })
     }
@@ -131,9 +131,12 @@ impl<'f> Compiler<'f> {
             let outer = &self.hierarchy.states[index].name;
             let arguments = self.states.get(outer.text.as_str())?.arguments.clone();
             if let Some((_, step)) = steps.iter().find(|(at, _)| *at == level) {
-                self.check_count(&step.name, step.span, &step.values, &arguments, entered)?;
-                given.push((step.values.as_slice(), arguments));
-            } else if !arguments.is_empty() {
+                let values = self.given(index, step.span, &step.values, entered)?;
+                given.push((values, arguments));
+            } else if self.hierarchy.states[index].arguments.iter().all(|argument| argument.default.is_some()) {
+                let values = self.given(index, target.span, &[], entered)?;
+                given.push((values, arguments));
+            } else {
                 let message =
                     format!("`{}` takes values, and is entered together with `{}`", outer.text, target.name.text);
                 let label = format!("the values of `{}` are missing", outer.text);
@@ -152,7 +155,7 @@ impl<'f> Compiler<'f> {
     fn path(&self, entered: &[usize]) -> String {
         let usages = entered.iter().enumerate().filter_map(|(level, &index)| {
             let name = &self.hierarchy.states[index].name.text;
-            let arguments = &self.states.get(name.as_str())?.arguments;
+            let arguments = &self.hierarchy.states[index].arguments;
             (level + 1 == entered.len() || !arguments.is_empty()).then(|| usage(name, arguments))
         });
         usages.collect::<Vec<_>>().join(".")
@@ -168,26 +171,25 @@ impl<'f> Compiler<'f> {
         }
     }
 
-    /// Checks the number of values for a state of `entered`.
-    fn check_count(
+    /// The values of the arguments of a state of `entered`.
+    fn given(
         &mut self,
-        name: &Name,
+        state: usize,
         span: Span,
-        values: &[Expression],
-        arguments: &[(String, Meaning)],
+        values: &'f [Expression],
         entered: &[usize],
-    ) -> Option<()> {
-        if values.len() == arguments.len() {
-            return Some(());
+    ) -> Option<Vec<Given<'f>>> {
+        let states = self.hierarchy.states;
+        let State { name, arguments, .. } = &states[state];
+        let what = format!("the state `{}`", name.text);
+        match (Callee { what: &what, label: "entered here" }).values(arguments, values, span) {
+            Ok(given) => Some(given),
+            Err(diagnostic) => {
+                let hint = format!("write `{}`", self.path(entered));
+                self.report(diagnostic.note(name.span, "declared here").hint(hint));
+                None
+            }
         }
-        let (takes, given) = (count(arguments.len()), values.len());
-        let message = format!("the state `{}` takes {takes}, not {given}", name.text);
-        let mut diagnostic = Diagnostic::error("P0304", message, span, "entered here");
-        if let Some(&made) = self.names().items.get(name.text.as_str()) {
-            diagnostic = diagnostic.note(made, "declared here");
-        }
-        self.report(diagnostic.hint(format!("write `{}`", self.path(entered))));
-        None
     }
 
     /// Emits the values of the entered states' arguments. All are computed before the first is stored, because a state
@@ -196,7 +198,9 @@ impl<'f> Compiler<'f> {
         let start = self.code.here();
         let pairs = given.iter().flat_map(|(values, arguments)| values.iter().zip(arguments));
         let values: Vec<Option<(Value, Value)>> = pairs
-            .map(|(value, &(_, argument))| {
+            .map(|(&Given { value, is_default }, &(_, argument))| {
+                let none = Scope::default();
+                let scope = if is_default { &none } else { scope };
                 let Some(argument) = argument else {
                     self.expression(scope, value);
                     return None;
@@ -293,7 +297,7 @@ impl<'f> Compiler<'f> {
             });
             return None;
         }
-        self.check_count(begin, *span, values, &arguments, &[child])?;
+        let values = self.given(child, *span, values, &[child])?;
         let values = self.pass_arguments(scope, &[(values, arguments)])?;
         Some((child, values))
     }
@@ -303,10 +307,4 @@ fn second_initial(message: &str, first: Span, second: Span) -> Diagnostic {
     Diagnostic::error("P0404", message, second, "a second initial state")
         .note(first, "the first")
         .hint("keep one of them")
-}
-
-/// The notation of a state with its arguments.
-fn usage(name: &str, arguments: &[(String, Meaning)]) -> String {
-    let names: Vec<&str> = arguments.iter().map(|(name, _)| name.as_str()).collect();
-    if names.is_empty() { name.to_owned() } else { format!("{name}({})", names.join(", ")) }
 }

@@ -1,7 +1,7 @@
 //! Lowering of tests and properties. Their code is not part of the program.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Bound, Expression, File, Kind, Name, Test, TestScenes};
+use crate::policy::ast::{Expression, File, Kind, Name, Setting, Test, TestScenes};
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::test::{self, Expectation, FigureRegister, PolicyTest, RunFigure};
 use crate::policy::types::Type;
@@ -52,8 +52,7 @@ impl<'f> Compiler<'f> {
         Some(PolicyTest { title: test.title.text.clone(), scenes: scenes?, settings, expectations })
     }
 
-    fn setting(&mut self, (name, value): &'f (Name, Bound), parameters: &[Parameter]) -> Option<(usize, f64)> {
-        let (value_si, dimension) = self.bound(value, None)?;
+    fn setting(&mut self, (name, value): &'f (Name, Setting), parameters: &[Parameter]) -> Option<(usize, f64)> {
         if let Some(None) = self.names().globals.get(name.text.as_str()) {
             // The error in the parameter has been reported.
             return None;
@@ -65,15 +64,7 @@ impl<'f> Compiler<'f> {
             self.report(did_you_mean(diagnostic, &name.text, known));
             return None;
         };
-        if let Err(error) = parameters[index].check(value_si, dimension) {
-            let diagnostic = Diagnostic::error("P0306", error.to_string(), value.span, "cannot be set");
-            self.report(match self.names().items.get(name.text.as_str()) {
-                Some(&made) => diagnostic.note(made, "the parameter"),
-                None => diagnostic,
-            });
-            return None;
-        }
-        Some((index, value_si))
+        self.value_of(value, &parameters[index]).map(|value| (index, value))
     }
 
     fn expectation(&mut self, truth: &'f Expression) -> Option<Expectation> {

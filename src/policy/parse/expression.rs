@@ -48,6 +48,25 @@ pub(super) fn climb(reader: &mut Reader<'_>, least: u8) -> Parsed<Expression> {
     Ok(left)
 }
 
+/// A conditional expression. In a chain of several, each is the last side of the one before.
+pub(super) fn choice(pair: Pair<'_>) -> Parsed<Expression> {
+    let mut reader = Reader::new(pair);
+    let mut branches = Vec::new();
+    while reader.has(Rule::branch) {
+        branches.push(climb(&mut Reader::new(reader.take(Rule::branch)?), 0)?);
+    }
+    let end = pair.span();
+    let mut otherwise = branches.pop().ok_or_else(|| internal(end))?;
+    while let Some(value) = branches.pop() {
+        let condition = branches.pop().ok_or_else(|| internal(end))?;
+        let span = condition.span.to(otherwise.span);
+        let depth = condition.depth.max(value.depth).max(otherwise.depth);
+        let [condition, value, last] = [condition, value, otherwise].map(Box::new);
+        otherwise = node(Kind::If { condition, value, otherwise: last }, span, depth)?;
+    }
+    Ok(Expression { span: end, ..otherwise })
+}
+
 fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
     let pair = reader.next()?;
     let span = pair.span();
@@ -68,7 +87,15 @@ fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
             let depth = inner.depth;
             node(Kind::Norm(Box::new(inner)), span, depth)
         }
-        Rule::group => Reader::new(pair).expression().map(|inner| Expression { span, ..inner }),
+        Rule::group => {
+            let mut reader = Reader::new(pair);
+            let inner = reader.expression()?;
+            if !reader.has(Rule::member) {
+                return Ok(Expression { span, ..inner });
+            }
+            let span = Span::new(span.start, inner.span.end);
+            members(&mut reader, Expression { span, ..inner })
+        }
         Rule::truth => node(Kind::Truth(pair.as_str() == "true"), span, 0),
         Rule::quantity => node(Kind::Quantity(quantity(pair)?), span, 0),
         Rule::access => access(pair),
@@ -88,7 +115,11 @@ fn access(pair: Pair<'_>) -> Parsed<Expression> {
         None
     };
     let depth = deepest(values.as_deref());
-    let mut expression = node(Kind::Root { name, values }, span, depth)?;
+    members(&mut reader, node(Kind::Root { name, values }, span, depth)?)
+}
+
+/// An expression with the members behind it.
+fn members(reader: &mut Reader<'_>, mut expression: Expression) -> Parsed<Expression> {
     while reader.has(Rule::member) {
         let mut parts = Reader::new(reader.take(Rule::member)?);
         let span = expression.span.to(parts.span());
@@ -98,6 +129,14 @@ fn access(pair: Pair<'_>) -> Parsed<Expression> {
         expression = node(Kind::Member { owner: Box::new(expression), name, values }, span, depth)?;
     }
     Ok(expression)
+}
+
+/// A value with the name of its argument.
+pub(super) fn named_value(pair: Pair<'_>) -> Parsed<Expression> {
+    let mut reader = Reader::new(pair);
+    let (name, value) = (reader.name()?, reader.expression()?);
+    let (span, depth) = (name.span.to(value.span), value.depth);
+    node(Kind::Named { name, value: Box::new(value) }, span, depth)
 }
 
 fn deepest(values: Option<&[Expression]>) -> usize {

@@ -5,7 +5,7 @@ use crate::policy::ast::{Expression, Name};
 use crate::policy::grammar::Rule;
 use crate::policy::parse_tree::{Pair, Pairs};
 
-use super::{Parsed, climb, internal, named};
+use super::{Parsed, choice, climb, internal, named, named_value};
 
 /// The inner pairs of a pair, read in order.
 pub(super) struct Reader<'i> {
@@ -61,7 +61,8 @@ impl<'i> Reader<'i> {
     }
 
     pub(super) fn expression(&mut self) -> Parsed<Expression> {
-        climb(&mut Reader::new(self.take(Rule::expression)?), 0)
+        let mut inner = Reader::new(self.take(Rule::expression)?);
+        if inner.has(Rule::choice) { choice(inner.next()?) } else { climb(&mut inner, 0) }
     }
 
     pub(super) fn values(&mut self) -> Parsed<Option<Vec<Expression>>> {
@@ -72,8 +73,13 @@ impl<'i> Reader<'i> {
 pub(super) fn values(pair: Pair<'_>) -> Parsed<Vec<Expression>> {
     let mut reader = Reader::new(pair);
     let mut values = Vec::new();
-    while reader.has(Rule::expression) {
-        values.push(reader.expression()?);
+    loop {
+        if reader.has(Rule::expression) {
+            values.push(reader.expression()?);
+        } else if reader.has(Rule::named) {
+            values.push(named_value(reader.next()?)?);
+        } else {
+            return Ok(values);
+        }
     }
-    Ok(values)
 }

@@ -4,7 +4,7 @@ use crate::policy::ast::{Range, Test, TestScenes};
 use crate::policy::grammar::Rule;
 use crate::policy::parse_tree::Pair;
 
-use super::{Parsed, Reader, bound, named, text};
+use super::{Parsed, Reader, bound, named, setting, text};
 
 pub(super) fn test(reader: &mut Reader<'_>) -> Parsed<Test> {
     let (title, scenario) = (text(reader)?, text(reader)?);
@@ -24,7 +24,7 @@ fn body(reader: &mut Reader<'_>, mut test: Test) -> Parsed<Test> {
         let rule = pair.as_rule();
         let mut reader = Reader::new(pair);
         if rule == Rule::setting {
-            test.settings.push((reader.name()?, bound(reader.take(Rule::bound)?)?));
+            test.settings.push((reader.name()?, setting(&mut reader)?));
         } else {
             test.expectations.push(reader.expression()?);
         }

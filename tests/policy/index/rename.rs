@@ -21,7 +21,10 @@ fn nameless(mut program: Program) -> String {
     program.name.clear();
     program.whiskers.iter_mut().for_each(String::clear);
     program.contours.iter_mut().for_each(|contour| contour.name.clear());
-    program.parameters.iter_mut().for_each(|parameter| parameter.name.clear());
+    for parameter in &mut program.parameters {
+        parameter.name.clear();
+        parameter.choices.iter_mut().for_each(String::clear);
+    }
     program.states.iter_mut().for_each(|state| state.name = "".into());
     format!("{program:?}")
 }
@@ -74,6 +77,27 @@ fn the_machines_memory_has_one_name_wherever_it_is_known() {
     for taken in ["limit", "S", "x"] {
         assert!(matches!(index.rename(at, taken), Err(RenameError::Taken { .. })), "{taken}");
     }
+}
+
+#[test]
+fn a_value_of_an_enumeration_and_an_argument_are_renamed_wherever_they_are_used() {
+    let text = "machine m\nwhisker a\ntype Side = left or right\nparam side = Side.left\n\
+                let is_left(of: Side, left: truth = true) = of == Side.left and left\ninitial S\n\
+                state S { stop  when is_left(left: a.touching, of: side) -> T(left: 1 s) }\n\
+                state T(left: time) { stop  after left -> S }\n\
+                test \"it\" in \"a.yaml\" { set side = Side.left  expect run.completed }\n";
+    let index = index(text);
+    let renamed = |declared: &str| {
+        let at = text.find(declared).unwrap();
+        let renamed = replaced(text, &index.rename(at, "fresh").unwrap(), "fresh");
+        assert!(compile(&Source::new("renamed.fsm", &*renamed)).is_ok(), "{renamed}");
+        renamed.matches("fresh").count()
+    };
+    assert_eq!(["left or", "left: truth", "left: time", "Side ="].map(renamed), [4, 3, 3, 5]);
+    let taken = index.rename(text.find("left or").unwrap(), "right").unwrap_err();
+    assert_eq!(taken, RenameError::Taken { name: "right".to_owned(), line: 3 });
+    let hover = |part: &str| index.hover(text.find(part).unwrap()).unwrap().text;
+    assert!(hover("side =").contains("a `Side`") && hover("left and").contains("a `Side`"));
 }
 
 #[test]

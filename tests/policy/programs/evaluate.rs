@@ -16,6 +16,8 @@ pub(crate) enum Value {
     Vector(Vector2),
     /// A whisker, or its contour.
     Whisker(usize),
+    /// The number of a value of the enumeration.
+    Choice(usize),
 }
 
 impl Value {
@@ -73,6 +75,10 @@ impl Interpreter<'_> {
                 Value::Number(number.parse::<f64>().unwrap() * factor / divisor)
             }
             Expression::Truth(truth) => Value::Truth(*truth),
+            Expression::Choice(number) => {
+                self.seen("a value of an enumeration", Some(place.part));
+                Value::Choice(*number)
+            }
             Expression::Name(name) => self.named(name, place),
             Expression::Call(name, values, site) => {
                 let values = self.values(values, place);
@@ -99,6 +105,14 @@ impl Interpreter<'_> {
                 self.seen("a closed loop", (*member == "loop_closed").then_some(place.part));
                 self.member(whisker, member, &values.iter().map(|value| value.number()).collect::<Vec<_>>())
             }
+            Expression::Named(_, value) => {
+                self.seen("a named value", Some(place.part));
+                self.value(value, place)
+            }
+            Expression::Omitted(value) => {
+                self.seen("a default", Some(place.part));
+                self.value(value, &mut Place::new(None, "a default"))
+            }
             Expression::Norm(inner) => Value::Number(match self.value(inner, place) {
                 Value::Vector(vector) => vector.norm(),
                 other => other.number().abs(),
@@ -108,6 +122,12 @@ impl Interpreter<'_> {
                 other => Value::Number(-other.number()),
             },
             Expression::Not(inner) => Value::Truth(!self.value(inner, place).truth()),
+            // All parts are computed, whatever the condition is: filters in them see every tick.
+            Expression::If(parts) => {
+                self.seen("a choice", Some(place.part));
+                let [condition, value, otherwise] = [0, 1, 2].map(|part| self.value(&parts[part], place));
+                if condition.truth() { value } else { otherwise }
+            }
             // Both sides are computed, whatever the first is: filters in the second see every tick.
             Expression::Binary(sign, left, right) => binary(sign, self.value(left, place), self.value(right, place)),
         }
@@ -301,14 +321,14 @@ fn inside(place: &Place, site: usize, arguments: &Arguments, values: Vec<Value>,
 }
 
 fn binary(sign: &str, left: Value, right: Value) -> Value {
-    use Value::{Number, Truth, Vector, Whisker};
+    use Value::{Choice, Number, Truth, Vector, Whisker};
     match (sign, left, right) {
         ("or", Truth(a), Truth(b)) => Truth(a || b),
         ("and", Truth(a), Truth(b)) => Truth(a && b),
         ("==", Truth(a), Truth(b)) => Truth(a == b),
         ("!=", Truth(a), Truth(b)) => Truth(a != b),
-        ("==", Whisker(a), Whisker(b)) => Truth(a == b),
-        ("!=", Whisker(a), Whisker(b)) => Truth(a != b),
+        ("==", Whisker(a), Whisker(b)) | ("==", Choice(a), Choice(b)) => Truth(a == b),
+        ("!=", Whisker(a), Whisker(b)) | ("!=", Choice(a), Choice(b)) => Truth(a != b),
         ("+", Vector(a), Vector(b)) => Vector(a + b),
         ("-", Vector(a), Vector(b)) => Vector(a - b),
         ("*", Vector(a), Number(b)) | ("*", Number(b), Vector(a)) => Vector(a * b),

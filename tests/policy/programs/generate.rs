@@ -32,8 +32,10 @@ impl Grower<'_> {
             self.know(&format!("c{contour}"), Type::Contour, false);
         }
         for index in 0..self.pick(4) {
-            let r#type = self.one_of(&[Type::Number, Type::Length, Type::Angle, Type::Time, Type::Speed, Type::Rate]);
-            let (name, value) = (format!("p{index}"), self.quantity(r#type));
+            let numbers = [Type::Number, Type::Length, Type::Angle, Type::Time, Type::Speed, Type::Rate];
+            let r#type = self.one_of(&[&numbers[..], &[Type::Truth, Type::Choice]].concat());
+            let value = if numbers.contains(&r#type) { self.quantity(r#type) } else { self.simple(r#type) };
+            let name = format!("p{index}");
             self.know(&name, r#type, false);
             self.program.parameters.push((name, value));
         }

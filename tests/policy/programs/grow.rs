@@ -1,6 +1,6 @@
 //! Random expressions of a given type, grown from bytes that say at every point what comes next.
 
-use super::tree::{Arguments, Expression, Program, Type};
+use super::tree::{Arguments, Expression, Program, Type, default};
 
 /// A name that is known where something grows.
 #[derive(Debug, Clone)]
@@ -115,7 +115,18 @@ impl<'g> Grower<'g> {
     }
 
     pub(crate) fn values(&mut self, arguments: &Arguments, depth: u8) -> Vec<Expression> {
-        arguments.iter().map(|&(_, r#type)| self.expression(r#type, depth)).collect()
+        // From one of them on, values have names or are left out.
+        let first = self.pick(arguments.len() + 1);
+        let value = |(index, (name, r#type)): (usize, &(String, Type))| {
+            if index < first {
+                return self.expression(*r#type, depth);
+            }
+            match default(name, *r#type) {
+                Some(default) if self.pick(3) > 0 => Expression::Omitted(Box::new(default)),
+                _ => Expression::Named(name.clone(), Box::new(self.expression(*r#type, depth))),
+            }
+        };
+        arguments.iter().enumerate().map(value).collect()
     }
 
     pub(crate) fn quantity(&mut self, r#type: Type) -> Expression {
@@ -143,11 +154,12 @@ impl<'g> Grower<'g> {
         }
     }
 
-    fn simple(&mut self, r#type: Type) -> Expression {
+    pub(crate) fn simple(&mut self, r#type: Type) -> Expression {
         match r#type {
             Type::Truth => Expression::Truth(self.pick(2) == 0),
             Type::Whisker => Expression::Name(format!("w{}", self.pick(self.program.whiskers))),
             Type::Contour => member(self.simple(Type::Whisker), "contour"),
+            Type::Choice => Expression::Choice(self.pick(3)),
             Type::Vector => member(self.simple(Type::Contour), "tangent"),
             Type::Place => Expression::Body("position"),
             _ => self.quantity(r#type),
@@ -174,15 +186,19 @@ impl<'g> Grower<'g> {
             Type::Place if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "end"),
             Type::Place => self.of_whisker(&["tip", "tip_base", "base"]),
             Type::Contour => self.of_whisker(&["contour"]),
-            Type::Whisker | Type::Rate | Type::Frequency => self.simple(r#type),
+            Type::Whisker | Type::Rate | Type::Frequency | Type::Choice => self.simple(r#type),
         }
     }
 
     pub(crate) fn composite(&mut self, r#type: Type, depth: u8) -> Expression {
+        if self.pick(10) == 9 {
+            let parts = [Type::Truth, r#type, r#type].map(|r#type| self.expression(r#type, depth));
+            return Expression::If(Box::new(parts));
+        }
         match r#type {
             Type::Truth => self.truth(depth),
             Type::Vector | Type::Place => self.vector(r#type, depth),
-            Type::Whisker | Type::Contour => self.sensed(r#type),
+            Type::Whisker | Type::Contour | Type::Choice => self.sensed(r#type),
             _ if self.pick(2) == 0 => self.scalar(r#type, depth),
             _ => self.special(r#type, depth),
         }
@@ -310,7 +326,8 @@ impl<'g> Grower<'g> {
                 self.binary(sign, scalar, scalar, depth)
             }
             3 => {
-                let (sign, either) = (self.one_of(&["==", "!="]), self.one_of(&[Type::Whisker, Type::Truth]));
+                let (sign, either) =
+                    (self.one_of(&["==", "!="]), self.one_of(&[Type::Whisker, Type::Truth, Type::Choice]));
                 self.binary(sign, either, either, depth)
             }
             4 => Expression::Not(Box::new(self.expression(Type::Truth, depth))),

@@ -127,7 +127,7 @@ proptest! {
 }
 
 /// What programs do, and as part of what.
-const DONE: [(&str, &[&str]); 37] = [
+const DONE: [(&str, &[&str]); 41] = [
     ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
     (
         "a unit with a factor",
@@ -135,6 +135,27 @@ const DONE: [(&str, &[&str]); 37] = [
     ),
     ("a derived value", &["a body", "an if", "an entry", "a guard", "a memory"]),
     ("one with arguments", &["a body", "a law", "an if", "an entry", "an exit", "a guard", "a target", "a memory"]),
+    (
+        "a choice",
+        &[
+            "a body",
+            "a law",
+            "a derived value",
+            "an if",
+            "an entry",
+            "an exit",
+            "a guard",
+            "a target",
+            "a memory",
+            "the machine",
+        ],
+    ),
+    (
+        "a value of an enumeration",
+        &["a parameter", "a body", "a law", "a derived value", "an if", "an entry", "a guard", "a target", "a memory"],
+    ),
+    ("a named value", &["a body", "a law", "an if", "an entry", "a guard", "a target", "a memory"]),
+    ("a default", &["a body", "a law", "an if", "an entry", "a target"]),
     ("let", &["a body", "a law", "an if", "an entry", "an exit"]),
     ("set", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of the machine's memory", &["a body", "an if", "an entry", "an exit", "the machine"]),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, Statement, Steer, Target, Type};
+use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, Statement, Steer, Target, Type, default};
 
 impl std::fmt::Debug for Program {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -25,6 +25,7 @@ impl Type {
             Self::Place => "vector of length",
             Self::Whisker => "whisker",
             Self::Contour => "contour",
+            Self::Choice => "E",
         }
     }
 }
@@ -52,6 +53,7 @@ impl Program {
     fn head(&self, initial: &str) -> String {
         let whiskers: Vec<String> = (0..self.whiskers).map(|whisker| format!("w{whisker}")).collect();
         let mut text = format!("machine m\nwhisker {}\ninitial {initial}\n", whiskers.join(", "));
+        text.push_str("type E = e0 or e1 or e2\n");
         for contour in 0..self.contours {
             writeln!(text, "contour c{contour} of {} points 2 mm apart", 3 + contour).unwrap();
         }
@@ -110,7 +112,11 @@ impl Program {
 }
 
 fn typed(arguments: &Arguments) -> Vec<String> {
-    arguments.iter().map(|(name, r#type)| format!("{name}: {}", r#type.name())).collect()
+    let typed = |(name, r#type): &(String, Type)| {
+        let default = default(name, *r#type).map_or_else(String::new, |default| format!(" = {}", default.text()));
+        format!("{name}: {}{default}", r#type.name())
+    };
+    arguments.iter().map(typed).collect()
 }
 
 /// Arguments with their parentheses, which are left out if there are none.
@@ -119,11 +125,18 @@ fn arguments(arguments: &Arguments) -> String {
 }
 
 fn list(values: &[Expression]) -> String {
-    values.iter().map(Expression::text).collect::<Vec<_>>().join(", ")
+    // Those with names come last, in any order.
+    let (named, mut in_order): (Vec<_>, Vec<_>) = values
+        .iter()
+        .filter(|value| !matches!(value, Expression::Omitted(_)))
+        .partition(|value| matches!(value, Expression::Named(..)));
+    in_order.extend(named.into_iter().rev());
+    in_order.into_iter().map(Expression::text).collect::<Vec<_>>().join(", ")
 }
 
 fn call(name: &str, values: &[Expression]) -> String {
-    if values.is_empty() { name.to_owned() } else { format!("{name}({})", list(values)) }
+    let list = list(values);
+    if list.is_empty() { name.to_owned() } else { format!("{name}({list})") }
 }
 
 fn block(statements: &[Statement]) -> String {
@@ -182,6 +195,7 @@ impl Statement {
     }
 }
 
+const OR: u8 = 1;
 const AND: u8 = 2;
 const COMPARE: u8 = 3;
 const SUM: u8 = 4;
@@ -193,7 +207,8 @@ impl Expression {
     /// How tightly it binds.
     fn power(&self) -> u8 {
         match self {
-            Self::Binary("or", ..) => 1,
+            Self::If(_) => 0,
+            Self::Binary("or", ..) => OR,
             Self::Binary("and", ..) | Self::Not(_) => AND,
             Self::Binary("+" | "-", ..) => SUM,
             Self::Binary("*" | "/", ..) => PRODUCT,
@@ -213,13 +228,20 @@ impl Expression {
             Self::Quantity(number, "") => (*number).to_owned(),
             Self::Quantity(number, unit) => format!("{number} {unit}"),
             Self::Truth(truth) => truth.to_string(),
+            Self::Choice(number) => format!("E.e{number}"),
             Self::Name(name) => name.clone(),
             Self::Call(name, values, _) => call(name, values),
             Self::Body(member) => format!("body.{member}"),
             Self::Member(owner, member, values) => call(&format!("{}.{member}", owner.at(ATOM)), values),
+            Self::Named(name, value) => format!("{name}: {}", value.text()),
+            Self::Omitted(_) => String::new(),
             Self::Norm(inner) => format!("|{}|", inner.text()),
             Self::Negate(inner) => format!("-{}", inner.at(ATOM)),
             Self::Not(inner) => format!("not {}", inner.at(COMPARE)),
+            Self::If(parts) => {
+                let [condition, value, otherwise] = &**parts;
+                format!("if {} then {} else {}", condition.at(OR), value.at(OR), otherwise.text())
+            }
             Self::Binary(sign, left, right) => {
                 format!("{} {sign} {}", left.at(self.power()), right.at(self.power() + 1))
             }

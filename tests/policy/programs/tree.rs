@@ -15,10 +15,12 @@ pub(crate) enum Type {
     Place,
     Whisker,
     Contour,
+    /// The enumeration that every program has.
+    Choice,
 }
 
 impl Type {
-    pub(crate) const ALL: [Self; 12] = [
+    pub(crate) const ALL: [Self; 13] = [
         Self::Number,
         Self::Truth,
         Self::Vector,
@@ -31,6 +33,7 @@ impl Type {
         Self::Frequency,
         Self::Place,
         Self::Contour,
+        Self::Choice,
     ];
 }
 
@@ -39,14 +42,22 @@ pub(crate) enum Expression {
     /// A number as it is written, and its unit.
     Quantity(&'static str, &'static str),
     Truth(bool),
+    /// A value of the enumeration.
+    Choice(usize),
     Name(String),
     /// A function or a derived value. Every use has a number of its own, for what it remembers.
     Call(String, Vec<Expression>, usize),
     Body(&'static str),
     Member(Box<Expression>, &'static str, Vec<Expression>),
+    /// The value of a call for the argument with this name.
+    Named(String, Box<Expression>),
+    /// The default of an argument that a call leaves out.
+    Omitted(Box<Expression>),
     Norm(Box<Expression>),
     Negate(Box<Expression>),
     Not(Box<Expression>),
+    /// A condition, and the values if it holds and if not.
+    If(Box<[Expression; 3]>),
     Binary(&'static str, Box<Expression>, Box<Expression>),
 }
 
@@ -76,7 +87,25 @@ pub(crate) struct Steer {
     pub(crate) turn: Expression,
 }
 
+/// Some have a [default](default).
 pub(crate) type Arguments = Vec<(String, Type)>;
+
+/// The default of an argument. Its name says whether it has one.
+pub(crate) fn default(name: &str, r#type: Type) -> Option<Expression> {
+    let number: usize = name[1..].parse().unwrap();
+    let quantity = |number, unit| Some(Expression::Quantity(number, unit));
+    match r#type {
+        _ if !number.is_multiple_of(2) => None,
+        Type::Number => quantity("2", ""),
+        Type::Length => quantity("3.7", "mm"),
+        Type::Time => quantity("100", "ms"),
+        Type::Speed => quantity("10", "mm/s"),
+        Type::Truth => Some(Expression::Truth(true)),
+        Type::Choice => Some(Expression::Choice(1)),
+        Type::Whisker => Some(Expression::Name("w0".to_owned())),
+        _ => None,
+    }
+}
 
 /// A derived value.
 #[derive(Debug, Clone)]

@@ -66,6 +66,15 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["run", disk, "--set", "speed=20 deg"], "`speed` is"),
         (vec!["run", disk, "--set", "speed=2 m/s"], "must lie between"),
         (vec!["run", disk, "--set", "speed"], "NAME=VALUE"),
+        (vec!["run", disk, "--set", "speed=fast"], "`speed` is a number, such as"),
+        (
+            vec!["run", disk, "--policy", "policies/vibrissa.fsm", "--set", "trust=1"],
+            "`trust` is `false` or `true`, not 1",
+        ),
+        (
+            vec!["run", disk, "--policy", "policies/vibrissa.fsm", "--set", "trust=no"],
+            "`trust` is `false` or `true`, not `no`",
+        ),
         (vec!["run", disk, "--set", "speed=20 mn/s"], "mn"),
         (vec!["run", disk, disk], "have the same name `disk`"),
         (vec!["run"], "SCENARIO"),

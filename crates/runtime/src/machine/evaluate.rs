@@ -45,6 +45,9 @@ pub(super) fn evaluate<S: Senses>(
             Op::Clamp { to, a, low, high } => {
                 file.put(to, minimum(maximum(file.at(a), file.at(low)), file.at(high)));
             }
+            Op::Select { to, condition, a, b } => {
+                file.put(to, if file.truth(condition) { file.at(a) } else { file.at(b) });
+            }
             Op::Sine { to, a } => file.put(to, math::sin(file.at(a))),
             Op::Cosine { to, a } => file.put(to, math::cos(file.at(a))),
             Op::Exponential { to, a } => file.put(to, math::exp(file.at(a))),

@@ -35,8 +35,8 @@ pub use fallback::{Cause, Fallback};
 pub use needs::{Needs, RateRange, UnmetRate};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
-    CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, Program,
-    REGISTER_LIMIT, SetError, State, Target, Transition,
+    CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, ParameterValue,
+    Program, REGISTER_LIMIT, SetError, State, Target, Transition,
 };
 pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{Position, SourceMap, StatePosition};

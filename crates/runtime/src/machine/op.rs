@@ -47,6 +47,8 @@ pub enum Op {
     Maximum { to: Register, a: Register, b: Register },
     /// `to = min(max(a, low), high)`
     Clamp { to: Register, a: Register, low: Register, high: Register },
+    /// `to = a` if `condition`, otherwise `to = b`
+    Select { to: Register, condition: Register, a: Register, b: Register },
     /// `to = sin(a)`
     Sine { to: Register, a: Register },
     /// `to = cos(a)`

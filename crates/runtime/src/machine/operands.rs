@@ -193,7 +193,9 @@ impl Op {
                 visit(Read(1), a);
                 visit(Read(1), b);
             }
-            Self::Clamp { to, a, low: b, high: c } | Self::MultiplyAdd { to, a, b, c } => {
+            Self::Clamp { to, a, low: b, high: c }
+            | Self::MultiplyAdd { to, a, b, c }
+            | Self::Select { to, condition: a, a: b, b: c } => {
                 visit(Write(1), to);
                 visit(Read(1), a);
                 visit(Read(1), b);

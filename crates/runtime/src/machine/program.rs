@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::{Dimension, format_si};
+use crate::units::{Dimension, Quantity, QuantityError, format_si, parse_quantity};
 
 use super::contact_estimator_kind::ContactEstimatorKind;
 use super::contour::{Keypoints, PositionContour};
@@ -70,7 +70,7 @@ pub struct Program {
     pub timers: usize,
 }
 
-/// A number that a run may set within a range.
+/// A value that a run may set: a number within a range, or one of several choices.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
     /// Name of the parameter.
@@ -83,6 +83,30 @@ pub struct Parameter {
     pub default: f64,
     /// Smallest and largest allowed value (SI).
     pub range: Option<(f64, f64)>,
+    /// The names of the values 0, 1, 2 and so on, which the range covers: `false` and `true`, or those of an enumeration.
+    /// Empty for a number.
+    pub choices: Vec<String>,
+}
+
+/// A value for a parameter, as a user writes it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ParameterValue {
+    /// A number with its unit.
+    Quantity(Quantity),
+    /// The name of a choice.
+    Choice(String),
+}
+
+impl ParameterValue {
+    /// Reads a value: a word is the name of a choice, and any other text a quantity.
+    ///
+    /// # Errors
+    /// [`QuantityError`] if the text is neither.
+    pub fn parse(text: &str) -> Result<Self, QuantityError> {
+        let is_word = text.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_')
+            && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        if is_word { Ok(Self::Choice(text.to_owned())) } else { parse_quantity(text).map(Self::Quantity) }
+    }
 }
 
 /// A state of a program.
@@ -194,6 +218,26 @@ pub enum SetError {
         expected: String,
         /// The value's dimension.
         found: String,
+    },
+    /// The value is not one of the choices.
+    #[error("`{name}` is {known}, not {value}")]
+    Choice {
+        /// The parameter.
+        name: String,
+        /// Its choices.
+        known: String,
+        /// The value.
+        value: String,
+    },
+    /// The value is a word, and the parameter is a number.
+    #[error("`{name}` is a number, such as {example}, not `{value}`")]
+    Word {
+        /// The parameter.
+        name: String,
+        /// Its default value.
+        example: String,
+        /// The word.
+        value: String,
     },
     /// The value is not a finite number.
     #[error("`{name}` must be a finite number")]
@@ -349,15 +393,30 @@ impl Program {
     /// # Errors
     /// [`SetError`] if there is no such parameter, the dimension differs, or the value is out of range or not finite.
     pub fn set(&mut self, name: &str, value: f64, dimension: Dimension) -> Result<(), SetError> {
-        let Some(index) = self.parameters.iter().position(|parameter| parameter.name == name) else {
-            let known = self.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect::<Vec<_>>();
-            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-            return Err(SetError::Unknown { name: name.to_owned(), known });
-        };
-        let parameter = &self.parameters[index];
-        parameter.check(value, dimension)?;
+        let index = self.parameter(name)?;
+        self.parameters[index].check(value, dimension)?;
         self.initial_registers[index] = value;
         Ok(())
+    }
+
+    /// Sets the parameter `name` to a value as a user writes it. Returns the value (SI), for a choice its number.
+    ///
+    /// # Errors
+    /// [`SetError`] if there is no such parameter, or it does not allow the value.
+    pub fn set_value(&mut self, name: &str, value: &ParameterValue) -> Result<f64, SetError> {
+        let index = self.parameter(name)?;
+        let value = self.parameters[index].read(value)?;
+        self.initial_registers[index] = value;
+        Ok(value)
+    }
+
+    /// Index of a parameter.
+    fn parameter(&self, name: &str) -> Result<usize, SetError> {
+        self.parameters.iter().position(|parameter| parameter.name == name).ok_or_else(|| {
+            let known = self.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect::<Vec<_>>();
+            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+            SetError::Unknown { name: name.to_owned(), known }
+        })
     }
 }
 
@@ -368,6 +427,9 @@ impl Parameter {
     /// [`SetError`] if the dimension differs, or the value is out of range or not finite.
     pub fn check(&self, value: f64, dimension: Dimension) -> Result<(), SetError> {
         let name = self.name.clone();
+        if !self.choices.is_empty() {
+            return Err(self.no_choice(format_si(value, dimension)));
+        }
         if self.dimension != dimension {
             let (expected, found) = (self.dimension.to_string(), dimension.to_string());
             return Err(SetError::Dimension { name, expected, found });
@@ -382,5 +444,37 @@ impl Parameter {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The value (SI) that a user writes for the parameter. For a choice, its number.
+    ///
+    /// # Errors
+    /// [`SetError`] if the parameter does not allow the value.
+    pub fn read(&self, value: &ParameterValue) -> Result<f64, SetError> {
+        match value {
+            ParameterValue::Quantity(quantity) => {
+                self.check(quantity.value_si, quantity.dimension).map(|()| quantity.value_si)
+            }
+            ParameterValue::Choice(word) if self.choices.is_empty() => {
+                let example = self.text(self.default);
+                Err(SetError::Word { name: self.name.clone(), example, value: word.clone() })
+            }
+            ParameterValue::Choice(word) => match self.choices.iter().position(|choice| choice == word) {
+                Some(number) => Ok(number as f64),
+                None => Err(self.no_choice(format!("`{word}`"))),
+            },
+        }
+    }
+
+    /// A value (SI) as text: a quantity, or the name of a choice.
+    #[must_use]
+    pub fn text(&self, value: f64) -> String {
+        let choice = (0_u32..).zip(&self.choices).find(|(number, _)| f64::from(*number).to_bits() == value.to_bits());
+        choice.map_or_else(|| format_si(value, self.dimension), |(_, choice)| choice.clone())
+    }
+
+    fn no_choice(&self, value: String) -> SetError {
+        let known = self.choices.iter().map(|choice| format!("`{choice}`")).collect::<Vec<_>>().join(" or ");
+        SetError::Choice { name: self.name.clone(), known, value }
     }
 }

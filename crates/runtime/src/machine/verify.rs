@@ -79,6 +79,9 @@ impl Program {
         if let Some(parameter) = parameters.iter().find(|parameter| is_unfit(&parameter.description)) {
             return Err(Unsound::Description(parameter.name.clone()));
         }
+        for parameter in parameters {
+            distinct(parameter.choices.iter().map(String::as_str))?;
+        }
         if !needs.are_valid() {
             return Err(Unsound::Needs);
         }
@@ -96,8 +99,13 @@ impl Program {
             return Err(Unsound::NotFinite(register));
         }
         for (parameter, value) in self.parameters.iter().zip(&self.initial_registers) {
+            let is_choice = |value: f64| value.fract() == 0.0 && value < parameter.choices.len() as f64;
             let holds = match parameter.range {
-                None => parameter.default.is_finite(),
+                None => parameter.default.is_finite() && parameter.choices.is_empty(),
+                Some((low, _)) if !parameter.choices.is_empty() => {
+                    low.to_bits() == 0
+                        && [*value, parameter.default].iter().all(|&value| value >= 0.0 && is_choice(value))
+                }
                 Some((low, high)) => {
                     let range = low..=high;
                     low.is_finite() && high.is_finite() && range.contains(value) && range.contains(&parameter.default)
@@ -280,12 +288,13 @@ impl Program {
     }
 
     /// Checks that registers that are read as an index into a list always contain an index below `count`. They start
-    /// with one, and only copies of such registers are written to them.
+    /// with one, and only copies of such registers or a choice of them are written to them.
     fn verify_indices(&self, list: Index, count: usize, fault: fn(Register) -> Unsound) -> Result<(), Unsound> {
         let mut copied_from: HashMap<Register, Vec<Register>> = HashMap::new();
         for op in &self.code {
             match *op {
                 Op::Copy { to, a } => copied_from.entry(to).or_default().push(a),
+                Op::Select { to, a, b, .. } => copied_from.entry(to).or_default().extend([a, b]),
                 Op::CopyVector { to, a } => {
                     copied_from.entry(to).or_default().push(a);
                     copied_from.entry(to + 1).or_default().push(a + 1);
@@ -311,7 +320,8 @@ impl Program {
                 return Err(fault(register));
             }
         }
-        for op in self.code.iter().filter(|op| !matches!(op, Op::Copy { .. } | Op::CopyVector { .. })) {
+        let computes = |op: &&Op| !matches!(op, Op::Copy { .. } | Op::CopyVector { .. } | Op::Select { .. });
+        for op in self.code.iter().filter(computes) {
             for register in op.operands().writes.into_iter().flat_map(RegisterSpan::registers) {
                 if let Ok(register) = Register::try_from(register)
                     && indices.contains(&register)

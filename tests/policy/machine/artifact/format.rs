@@ -26,6 +26,8 @@ contour c of 3 points 5 mm apart
 needs control_rate in 20 .. 30 Hz
 needs sample_age in 0 .. 10 ms
 param low = 1 in 0 .. 2  # described
+type Side = left or right
+param side = Side.right
 var n = low
 record a
 record a.tip in c

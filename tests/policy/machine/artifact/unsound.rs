@@ -227,6 +227,8 @@ fn what_is_read_as_a_whisker_only_ever_holds_one() {
         program.code[other] = Op::Time { to: through };
     });
     told(&|program, whisker| replace(program, Op::Copy { to: whisker, a: 1 }));
+    told(&|program, whisker| replace(program, Op::Select { to: whisker, condition: 3, a: whisker, b: 1 }));
+    told(&|program, whisker| replace(program, Op::Select { to: whisker, condition: 3, a: 1, b: whisker }));
     told(&|program, _| replace(program, Op::Whisker { to: 9, whisker: 1, quantity: WhiskerScalar::Yaw }));
     told(&|program, _| {
         program.whiskers.pop();
@@ -316,6 +318,17 @@ fn parameters_stay_what_they_are() {
         assert!(refusal(change).contains("`fast` is outside of its range"));
     }
     assert!(refusal(|program| program.parameters[1].default = f64::NAN).contains("`free`"));
+    let choose = |program: &mut Program, choices: &[&str], range, value| {
+        program.parameters[0].choices = choices.iter().map(|&choice| choice.to_owned()).collect();
+        (program.parameters[0].range, program.parameters[0].default) = (range, value);
+        program.initial_registers[0] = value;
+    };
+    for (range, value) in [(None, 0.0), (Some((0.0, 1.0)), 0.5), (Some((0.0, 2.0)), 2.0), (Some((-1.0, 1.0)), -1.0)] {
+        let told = refusal(|program| choose(program, &["no", "yes"], range, value));
+        assert!(told.contains("`fast` is outside of its range"), "{told}");
+    }
+    let told = refusal(|program| choose(program, &["no", "no"], Some((0.0, 1.0)), 0.0));
+    assert!(told.contains("`no` occurs twice"), "{told}");
 }
 
 #[test]

@@ -1,0 +1,76 @@
+//! Enumerations and their values.
+
+use std::collections::HashMap;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::policy::ast::{Enumeration, Name, TypeName};
+use crate::policy::suggestion::did_you_mean;
+use crate::policy::types::{Choices, Type, Value};
+
+use super::Compiler;
+
+impl Enumeration {
+    /// The type of its values.
+    pub(super) fn r#type(&self) -> Type {
+        Type::Choice(Choices { declared: self.name.span, count: self.values.len() })
+    }
+
+    /// The names of its values.
+    pub(super) fn names(&self) -> Vec<String> {
+        self.values.iter().map(|value| value.text.clone()).collect()
+    }
+}
+
+impl<'f> Compiler<'f> {
+    /// Checks that the values of an enumeration differ.
+    pub(super) fn check_choices(&mut self, item: &Enumeration) {
+        for (index, value) in item.values.iter().enumerate() {
+            if let Some(first) = item.values[..index].iter().find(|first| first.text == value.text) {
+                let message = format!("`{}` has the value `{}` twice", item.name.text, value.text);
+                let diagnostic = Diagnostic::error("P0202", message, value.span, "again here");
+                self.report(diagnostic.note(first.span, "first here").hint("keep one of them"));
+            }
+        }
+    }
+
+    /// The number of a value of an enumeration.
+    pub(super) fn choice_number(&mut self, item: &Enumeration, value: &Name) -> Option<usize> {
+        let found = item.values.iter().position(|known| known.text == value.text);
+        if found.is_none() {
+            let message = format!("`{}` has no value `{}`", item.name.text, value.text);
+            let diagnostic = Diagnostic::error("P0203", message, value.span, "unknown value");
+            let known = item.names();
+            let diagnostic = did_you_mean(diagnostic, &value.text, known.iter().map(String::as_str));
+            let hint = format!("its values are {}", known.join(", "));
+            self.report(diagnostic.note(item.name.span, "declared here").hint(hint));
+        }
+        found
+    }
+
+    /// Lowers `Side.left`.
+    pub(super) fn choice_value(&mut self, item: &'f Enumeration, value: &Name) -> Option<Value> {
+        let number = self.choice_number(item, value)?;
+        Some(Value { r#type: item.r#type(), register: self.code.constant(number as f64) })
+    }
+
+    /// The type with a name in the current file, if there is one.
+    pub(super) fn named_type(&self, name: &TypeName) -> Option<Type> {
+        let is_plain = name.of.is_none() && name.factors.is_empty();
+        let own = || self.names().enumerations.get(name.base.text.as_str()).filter(|_| is_plain);
+        Type::named(name).or_else(|| own().map(|item| item.r#type()))
+    }
+
+    /// A type in messages.
+    pub(super) fn phrase(&self, r#type: Type) -> String {
+        let item = match r#type {
+            Type::Choice(choices) => self.enumerations.get(&choices.declared),
+            _ => None,
+        };
+        item.map_or_else(|| r#type.to_string(), |item| format!("a `{}`", item.name.text))
+    }
+
+    /// The names of the values of all enumerations, by the span of the declaration.
+    pub(super) fn choices(&self) -> HashMap<Span, Vec<String>> {
+        self.enumerations.iter().map(|(&span, item)| (span, item.names())).collect()
+    }
+}
