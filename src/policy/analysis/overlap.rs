@@ -65,5 +65,9 @@ fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
         (Kind::Root { name: a, values: None }, Kind::Root { name: b, values: None }) => a.text == b.text,
         _ => false,
     };
-    a.leads_to() == b.leads_to() && a.values().zip(b.values()).all(same_value)
+    let exit = |edge: &Edge<'_>| {
+        let target = &edge.written.target;
+        target.is_exit.then(|| target.name.text.clone())
+    };
+    a.leads_to() == b.leads_to() && exit(a) == exit(b) && a.values().zip(b.values()).all(same_value)
 }

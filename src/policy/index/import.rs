@@ -82,23 +82,46 @@ fn named(token: Token<'_>) -> Name {
 pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
     let Some(part) = import.part(source) else { return };
     let everywhere = source.part_span(0);
-    for symbol in exports(source, part) {
+    let declared = declared(source, part);
+    // The index of each declared symbol among all.
+    let mut places: Vec<Option<usize>> = Vec::with_capacity(declared.len());
+    for symbol in declared {
         let is_chosen =
-            import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
-        if is_chosen && symbols[own..].iter().all(|known| known.span != symbol.span) {
-            symbols.push(Symbol { visible: everywhere, ..symbol });
-        }
+            || import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
+        let owner = symbol.owner.and_then(|owner| places.get(owner).copied().flatten());
+        // The exits and states of a behaviour, and the memory of a monitor, are known only together with their use.
+        let visible = if is_export(&symbol) { everywhere } else { Span::new(0, 0) };
+        let is_inner = matches!(symbol.kind, SymbolKind::State | SymbolKind::Exit | SymbolKind::Memory);
+        let is_wanted = if is_export(&symbol) { is_chosen() } else { is_inner && owner.is_some() };
+        let known = symbols[own..].iter().position(|known| known.span == symbol.span).map(|index| own + index);
+        places.push(match known {
+            None if is_wanted => {
+                symbols.push(Symbol { owner, visible, ..symbol });
+                Some(symbols.len() - 1)
+            }
+            known => known,
+        });
     }
 }
 
-/// The exported symbols of a part of a source: its laws and derived values.
+/// True if other files can use a symbol of a file.
+fn is_export(symbol: &Symbol) -> bool {
+    use SymbolKind::{Behaviour, Derived, Law, Monitor};
+    matches!(symbol.kind, Law | Derived | Behaviour | Monitor) && symbol.owner.is_none()
+}
+
+/// The exported symbols of a part of a source: its laws, derived values, behaviours and monitors.
 pub(super) fn exports(source: &Source, part: usize) -> Vec<Symbol> {
+    declared(source, part).into_iter().filter(is_export).collect()
+}
+
+/// All symbols of a part of a source.
+fn declared(source: &Source, part: usize) -> Vec<Symbol> {
     let span = source.part_span(part);
     let text = source.slice(span);
     let symbols = declare(text, &code_tokens(text), true).finish(text).into_iter();
-    let own = symbols.filter(|symbol| matches!(symbol.kind, SymbolKind::Law | SymbolKind::Derived));
     let moved = |inner: Span| Span::new(span.start + inner.start, span.start + inner.end);
-    own.map(|symbol| Symbol { span: moved(symbol.span), whole: moved(symbol.whole), ..symbol }).collect()
+    symbols.map(|symbol| Symbol { span: moved(symbol.span), whole: moved(symbol.whole), ..symbol }).collect()
 }
 
 /// The description of a file in the comment at its beginning.

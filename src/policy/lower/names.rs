@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Derived, File, Law, Name, Use};
+use crate::policy::ast::{Derived, File, Law, Monitor, Name, Use};
 use crate::policy::load::Files;
 use crate::policy::suggestion::did_you_mean;
 
@@ -24,9 +24,18 @@ pub(super) struct Names<'f> {
     /// Derived values and laws, each with the number of its file.
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
+    /// The names of monitors that use others.
+    pub(super) running: HashSet<&'f str>,
+    /// The monitors that others can use, each with the number of its file.
+    pub(super) monitors: HashMap<&'f str, (usize, &'f Monitor)>,
 }
 
 impl Names<'_> {
+    /// True if a name means a monitor.
+    pub(super) fn is_monitor(&self, name: &str) -> bool {
+        self.monitors.contains_key(name) || self.running.contains(name)
+    }
+
     /// Span of the declaration of an item that the whole file knows.
     pub(super) fn item(&self, name: &str) -> Option<Span> {
         self.items.get(name).copied().filter(|_| !self.memory.contains(name))
@@ -73,6 +82,8 @@ impl<'f> Compiler<'f> {
         let derived = file.derived.iter().map(|derived| &derived.name);
         let laws = file.laws.iter().map(|law| &law.name);
         let states = file.states.iter().map(|state| &state.name);
+        let behaviours = file.behaviours.iter().map(|behaviour| &behaviour.name);
+        let monitors = file.monitors.iter().map(|monitor| &monitor.name);
         let memory = file.memory.iter().map(|(name, _)| name);
         let contours = file.contours.iter().map(|contour| &contour.name);
         for name in file
@@ -83,6 +94,8 @@ impl<'f> Compiler<'f> {
             .chain(derived)
             .chain(laws)
             .chain(states)
+            .chain(behaviours)
+            .chain(monitors)
             .chain(memory)
         {
             if is_reserved(&name.text) {
@@ -96,12 +109,16 @@ impl<'f> Compiler<'f> {
         let names = self.names_mut();
         names.memory = file.memory.iter().map(|(name, _)| name.text.as_str()).collect();
         names.derived = file.derived.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
+        let contents = file.monitors.iter().filter(|item| item.used.is_none());
+        let running = file.monitors.iter().filter(|item| item.used.is_some());
+        names.running = running.map(|item| item.name.text.as_str()).collect();
+        names.monitors = contents.map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
     }
 
     /// Imports the items of the library `other`, file `number`, for the `use` `used`.
     fn import(&mut self, used: &'f Use, number: usize, other: &'f File) {
-        let own = || other.derived.iter().map(|item| &item.name).chain(other.laws.iter().map(|item| &item.name));
+        let own = || other.exports();
         let chosen: Vec<(&'f Name, Span)> = match &used.names {
             None => own().map(|name| (name, used.span)).collect(),
             Some(names) => names.iter().filter_map(|name| self.choose(name, other, own())).collect(),
@@ -123,10 +140,12 @@ impl<'f> Compiler<'f> {
                     let text = name.text.as_str();
                     let derived = other.derived.iter().find(|item| item.name.span == name.span);
                     let law = other.laws.iter().find(|item| item.name.span == name.span);
+                    let monitor = other.monitors.iter().find(|item| item.name.span == name.span);
                     let names = self.names_mut();
                     names.items.insert(text, name.span);
                     names.derived.extend(derived.map(|item| (text, (number, item))));
                     names.laws.extend(law.map(|item| (text, (number, item))));
+                    names.monitors.extend(monitor.map(|item| (text, (number, item))));
                 }
             }
         }

@@ -7,7 +7,8 @@ use crate::machine::{
     BodyScalar, ContactEstimatorKind, ContourVector, Keypoints, Mark, PositionContour, Senses, WhiskerScalar,
     WhiskerVector,
 };
-use crate::rig::{Rig, Whisker};
+use crate::math;
+use crate::rig::{Platform, Rig, Whisker};
 use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
@@ -37,6 +38,7 @@ pub struct Perception {
     time: f64,
     /// Pose of the body in this tick, or unknown.
     body: Pose,
+    platform: Platform,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
@@ -156,6 +158,7 @@ impl Perception {
         Ok(Self {
             time: 0.0,
             body: Pose::default(),
+            platform: rig.platform.clone(),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             contours: Vec::new(),
@@ -308,6 +311,11 @@ impl Senses for Perception {
             BodyScalar::Yaw => self.body.heading,
             BodyScalar::Blocked => f64::from(u8::from(self.disturbance.is_blocked())),
             BodyScalar::Shortfall => self.disturbance.shortfall(),
+            BodyScalar::Length => self.platform.length,
+            BodyScalar::Width => math::max(self.platform.nose_width, self.platform.tail_width),
+            BodyScalar::NoseWidth => self.platform.nose_width,
+            BodyScalar::TailWidth => self.platform.tail_width,
+            BodyScalar::NoseReach => self.platform.length - self.platform.centre_of_mass,
         }
     }
 
