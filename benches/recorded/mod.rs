@@ -88,7 +88,7 @@ impl Senses for Felt<'_> {
     fn body(&self, quantity: BodyScalar) -> f64 {
         match quantity {
             BodyScalar::Yaw => self.recorded.yaw + self.command,
-            BodyScalar::Blocked | BodyScalar::Shortfall => self.command,
+            _ => self.command,
         }
     }
 

@@ -89,6 +89,8 @@ struct LibrarySummary {
     name: String,
     laws: Vec<String>,
     values: Vec<String>,
+    behaviours: Vec<String>,
+    monitors: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -181,8 +183,8 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
     };
     let (machine, library, diagnostics) = match policy::check(&source) {
         Ok(Found::Machine(compiled)) => (Some(summary(&compiled.artifact)), None, compiled.warnings),
-        Ok(Found::Library { name, laws, values, warnings }) => {
-            (None, Some(LibrarySummary { name, laws, values }), warnings)
+        Ok(Found::Library { name, laws, values, behaviours, monitors, warnings }) => {
+            (None, Some(LibrarySummary { name, laws, values, behaviours, monitors }), warnings)
         }
         Err(faults) => (None, None, faults),
     };
@@ -191,9 +193,10 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
         if let Some(machine) = &machine {
             output::result(describe(&source.name, machine))?;
         }
-        if let Some(LibrarySummary { name, laws, values }) = &library {
+        if let Some(LibrarySummary { name, laws, values, behaviours, monitors }) = &library {
             let (laws, values) = (count(laws.len(), "law"), count(values.len(), "value"));
-            output::result(format_args!("{}: library {name}, {laws}, {values}", source.name))?;
+            let (behaviours, monitors) = (count(behaviours.len(), "behaviour"), count(monitors.len(), "monitor"));
+            output::result(format_args!("{}: library {name}, {laws}, {values}, {behaviours}, {monitors}", source.name))?;
         }
     }
     let (file, diagnostics) = (source.name.clone(), records(&source, &diagnostics));

@@ -91,6 +91,9 @@ fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
         SymbolKind::Derived => LspSymbolKind::Variable,
         SymbolKind::Law => LspSymbolKind::Function,
         SymbolKind::State => LspSymbolKind::Class,
+        SymbolKind::Behaviour => LspSymbolKind::Module,
+        SymbolKind::Monitor => LspSymbolKind::Object,
+        SymbolKind::Exit => LspSymbolKind::Event,
         SymbolKind::Memory => LspSymbolKind::Property,
         SymbolKind::Machine | SymbolKind::Argument | SymbolKind::Local => return None,
     })

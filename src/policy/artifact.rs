@@ -5,10 +5,11 @@ use sha2::{Digest, Sha256};
 use crate::diagnostic::{Position, Source};
 use vibrissa_runtime::machine::{Artifact, Origin, Program, SourceMap, StatePosition};
 
-use super::ast::{File, Guard, Transition};
+use super::ast::{Guard, Transition};
+use super::load::Files;
 
 /// The artifact of a program, with its source text and syntax tree.
-pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifact {
+pub(super) fn artifact(source: &Source, files: &Files, program: Program) -> Artifact {
     let origin = Origin {
         // Without the folder, so that the same policy gives the same bytes everywhere.
         file: source.name.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
@@ -16,17 +17,25 @@ pub(super) fn artifact(source: &Source, file: &File, program: Program) -> Artifa
         text_sha256: Sha256::digest(&source.text).into(),
         compiler: env!("CARGO_PKG_VERSION").to_owned(),
     };
-    Artifact { origin, most_operations: program.most_operations(), program, positions: places(source, file) }
+    Artifact { origin, most_operations: program.most_operations(), program, positions: places(source, files) }
 }
 
-fn places(source: &Source, file: &File) -> SourceMap {
+/// Positions in the text of the policy. A copy of a behaviour of another file has the position of the state that uses it.
+fn places(source: &Source, files: &Files) -> SourceMap {
     let position = |transition: &Transition| -> Position {
         let (Guard::When { condition: expression, .. } | Guard::After(expression)) = &transition.guard;
         source.line_column(expression.span.start)
     };
-    let states = file.states.iter().map(|state| StatePosition {
-        name: source.line_column(state.name.span.start),
-        transitions: state.transitions.iter().map(position).collect(),
+    let machine = &files.machine;
+    let own = |state: usize| {
+        let outward = std::iter::successors(Some(state), |&state| machine.states[state].parent);
+        outward.into_iter().find(|&state| machine.instances[machine.states[state].instance].file == 0).unwrap_or(state)
+    };
+    let states = machine.states.iter().enumerate().map(|(index, state)| {
+        let name = source.line_column(machine.states[own(index)].name.span.start);
+        let is_own = own(index) == index;
+        let position = |transition: &Transition| if is_own { position(transition) } else { name };
+        StatePosition { name, transitions: state.transitions.iter().map(position).collect() }
     });
-    SourceMap { always: file.always.iter().map(position).collect(), states: states.collect() }
+    SourceMap { always: files.main.always.iter().map(position).collect(), states: states.collect() }
 }

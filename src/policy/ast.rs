@@ -34,6 +34,8 @@ pub(super) struct File {
     pub(super) laws: Vec<Law>,
     /// In the order of the text, so an outer state precedes its inner states.
     pub(super) states: Vec<State>,
+    pub(super) behaviours: Vec<Behaviour>,
+    pub(super) monitors: Vec<Monitor>,
     /// `var name = value` outside of all states
     pub(super) memory: Vec<(Name, Expression)>,
     /// Span of the first statement outside of all states.
@@ -47,10 +49,13 @@ pub(super) struct File {
 }
 
 impl File {
-    /// The names that other files may use.
+    /// The names that another file can use: derived values, laws, behaviours, monitors and enumerations.
     pub(super) fn exports(&self) -> impl Iterator<Item = &Name> {
         let derived = self.derived.iter().map(|item| &item.name);
-        derived.chain(self.laws.iter().map(|item| &item.name)).chain(self.enumerations.iter().map(|item| &item.name))
+        let laws = self.laws.iter().map(|item| &item.name);
+        let enumerations = self.enumerations.iter().map(|item| &item.name);
+        let monitors = self.monitors.iter().filter(|item| item.used.is_none()).map(|item| &item.name);
+        derived.chain(laws).chain(self.behaviours.iter().map(|item| &item.name)).chain(monitors).chain(enumerations)
     }
 }
 
@@ -212,6 +217,59 @@ pub(super) struct State {
     pub(super) body: Vec<Statement>,
     pub(super) transitions: Vec<Transition>,
     pub(super) failsafes: Vec<Target>,
+    /// `is name(values)`: the behaviour that is the content of the state.
+    pub(super) behaviour: Option<Step>,
+    /// `on exit(names) -> target`
+    pub(super) connections: Vec<Connection>,
+    /// `exit name(arguments)`. Only the outermost state of a behaviour may have exits.
+    pub(super) exits: Vec<Exit>,
+    /// The use of a behaviour to which the state belongs: 0 for the states of the machine itself.
+    pub(super) instance: usize,
+}
+
+/// `behaviour name(arguments) { … }`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Behaviour {
+    pub(super) name: Name,
+    /// Span of the whole declaration.
+    pub(super) span: Span,
+    /// The first one is the behaviour itself, with its name, arguments and exits. The others are inside it.
+    pub(super) states: Vec<State>,
+}
+
+impl Behaviour {
+    /// The behaviour itself as a state.
+    pub(super) fn root(&self) -> &State {
+        &self.states[0]
+    }
+}
+
+/// `monitor name(arguments) { … }`, `monitor name is other(values)`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Monitor {
+    pub(super) name: Name,
+    pub(super) arguments: Vec<Argument>,
+    /// `var name = value`
+    pub(super) memory: Vec<(Name, Expression)>,
+    pub(super) body: Vec<Statement>,
+    /// The monitor after `is`, with the values of its arguments.
+    pub(super) used: Option<Step>,
+}
+
+/// `exit name(arguments)`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Exit {
+    pub(super) name: Name,
+    pub(super) arguments: Vec<Argument>,
+}
+
+/// `on exit(names) -> target`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Connection {
+    pub(super) exit: Name,
+    /// The names of the exit's values.
+    pub(super) names: Vec<Name>,
+    pub(super) target: Target,
 }
 
 /// `when …` and `after …`
@@ -235,9 +293,11 @@ pub(super) struct Step {
     pub(super) span: Span,
 }
 
-/// `Name`, `Name(values)`, `Outer(values).Name(values)`, `resume Name(values)`, `Failure("reason")`
+/// `Name`, `Name(values)`, `Outer(values).Name(values)`, `resume Name(values)`, `Failure("reason")`, `exit name(values)`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Target {
+    /// True for an exit of the behaviour.
+    pub(super) is_exit: bool,
     /// Span of `resume`, which enters the inner state that was active last (history).
     pub(super) resume: Option<Span>,
     /// The outer states before the state.

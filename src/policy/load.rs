@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{File, Use};
+use super::expand::{self, Expanded};
 use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
 
@@ -33,6 +34,24 @@ pub(super) struct Files {
     pub(super) libraries: Vec<File>,
     /// For every `use` of every file, the index of the used library.
     pub(super) links: Vec<Vec<usize>>,
+    /// The states of the policy, with copies of the behaviours that they use.
+    pub(super) machine: Expanded,
+    /// For every file, its behaviours alone. The policy comes first. Those of the standard library are left out.
+    pub(super) behaviours: Vec<Vec<Expanded>>,
+}
+
+impl Files {
+    /// The files, with the behaviours expanded.
+    fn new(main: File, libraries: Vec<File>, links: Vec<Vec<usize>>) -> Self {
+        let all: Vec<&File> = std::iter::once(&main).chain(&libraries).collect();
+        let machine = expand::machine(&all, &links);
+        // Tests ensure that the standard library has no errors.
+        let is_checked = |number: usize| number == 0 || !all[number].is_standard;
+        let behaviours = (0..all.len())
+            .map(|number| if is_checked(number) { expand::behaviours(&all, &links, number) } else { Vec::new() })
+            .collect();
+        Self { main, libraries, links, machine, behaviours }
+    }
 }
 
 /// Parses a policy and the files that it uses. Files that are not parts of the source come from `library`.
@@ -127,7 +146,7 @@ impl Loaded {
     pub(super) fn known(self) -> (Source, Option<Files>) {
         let first = self.files.first().cloned().flatten();
         let (source, files, _) = self.files();
-        let alone = || Some(Files { main: first?, libraries: Vec::new(), links: Vec::new() });
+        let alone = || Some(Files::new(first?, Vec::new(), Vec::new()));
         (source, files.or_else(alone))
     }
 
@@ -162,7 +181,7 @@ impl Loaded {
         let files = match (files, links) {
             (Some(mut files), Some(links)) if fit && !files.is_empty() => {
                 let main = files.remove(0);
-                Some(Files { main, libraries: files, links })
+                Some(Files::new(main, files, links))
             }
             _ => None,
         };
@@ -208,16 +227,17 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
     let states = file.states.iter().map(|state| state.name.span);
     let names = file.whiskers.iter().chain(&file.initial).map(|name| name.span);
     let rules = file.always.iter().map(|rule| &rule.target).chain(&file.failsafes).map(|target| target.span);
+    let running = file.monitors.iter().filter(|monitor| monitor.used.is_some()).map(|monitor| monitor.name.span);
     let tests = file.tests.iter().map(|test| test.title.span);
     let memory = file.memory.iter().map(|(name, _)| name.span);
     let items =
-        parameters.chain(needs).chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(file.acts);
+        parameters.chain(needs).chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(running).chain(file.acts);
     let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
-        Diagnostic::error("P0603", "a library has only laws, derived values and types", first, "belongs to a machine")
+        Diagnostic::error("P0603", "a library has only laws, derived values, types, behaviours and monitors with braces", first, "belongs to a machine")
             .note(file.name.span, "a library")
             .hint(
-                "pass values to a law as arguments; only a machine has states, whiskers, needs, parameters, memory and tests",
+                "pass values to a law or a behaviour as arguments; only a machine has its own states, whiskers, needs, parameters, memory and tests",
             )
     })
 }

@@ -2,6 +2,7 @@
 //!
 //! - `grammar` parses a text with pest (`grammar/fsm.pest`). `parse_tree` stores the result in a flat list.
 //! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors.
+//! - `expand` copies behaviours into the states that use them.
 //! - `lower` checks names, types and units, and generates code.
 //! - `analysis` finds probable mistakes in the tree and the code.
 //! - `optimise` shortens the code.
@@ -15,6 +16,7 @@ mod builtins;
 pub mod chart;
 mod defaults;
 mod description;
+mod expand;
 mod foreign_syntax;
 mod format;
 mod grammar;
@@ -66,6 +68,10 @@ pub enum Checked {
         laws: Vec<String>,
         /// Names of its derived values.
         values: Vec<String>,
+        /// Names of its monitors.
+        monitors: Vec<String>,
+        /// Names of its behaviours.
+        behaviours: Vec<String>,
         /// Warnings about probable mistakes.
         warnings: Vec<Diagnostic>,
     },
@@ -135,7 +141,7 @@ fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagn
     let warnings = analysis::warnings(&files, &lowered);
     // After the analysis, which reads conditions as they are written.
     let program = optimise::optimise(lowered.program);
-    let artifact = artifact::artifact(&source, &files.main, program);
+    let artifact = artifact::artifact(&source, &files, program);
     Ok(Compiled { artifact, tests: lowered.tests, warnings })
 }
 
@@ -148,22 +154,19 @@ pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
     if !loaded.is_library() {
         return compile_loaded(source, loaded).map(|compiled| Checked::Machine(Box::new(compiled)));
     }
-    let (whole, files, recovery) = loaded.files();
-    let Some(files) = files else { return Err(within(source, &whole, recovery.join(&whole, Vec::new()))) };
-    let faults = recovery.join(&whole, lower::check(&files).err().unwrap_or_default());
-    if !faults.is_empty() {
-        return Err(within(source, &whole, faults));
-    }
+    let (_, files) = checked_library(source, loaded)?;
     let names = |names: &mut dyn Iterator<Item = &ast::Name>| names.map(|name| name.text.clone()).collect();
     Ok(Checked::Library {
         name: files.main.name.text.clone(),
         laws: names(&mut files.main.laws.iter().map(|law| &law.name)),
         values: names(&mut files.main.derived.iter().map(|derived| &derived.name)),
+        monitors: names(&mut files.main.monitors.iter().map(|monitor| &monitor.name)),
+        behaviours: names(&mut files.main.behaviours.iter().map(|behaviour| &behaviour.name)),
         warnings: analysis::library_warnings(&files),
     })
 }
 
-/// The statechart of a policy.
+/// The statechart of a policy, or those of the behaviours of a library.
 ///
 /// # Errors
 /// Those of [`compile`]. A policy with errors has no chart.
@@ -175,13 +178,29 @@ pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
 /// # Ok::<(), Vec<vibrissa::diagnostic::Diagnostic>>(())
 /// ```
 pub fn chart(source: &Source) -> Result<chart::Chart, Vec<Diagnostic>> {
-    let (source, files, _) = lowered(source, load(source))?;
-    Ok(chart::build(&source, &files.main))
+    let loaded = load(source);
+    if !loaded.is_library() {
+        let (source, files, _) = lowered(source, loaded)?;
+        return Ok(chart::build(&source, &files));
+    }
+    let (whole, files) = checked_library(source, loaded)?;
+    if files.main.behaviours.is_empty() {
+        return Err(vec![library(&files.main)]);
+    }
+    Ok(chart::build(&whole, &files))
+}
+
+/// The files of a library without errors, with all texts.
+fn checked_library(source: &Source, loaded: Loaded) -> Result<(Source, Files), Vec<Diagnostic>> {
+    let (whole, files, recovery) = loaded.files();
+    let Some(files) = files else { return Err(within(source, &whole, recovery.join(&whole, Vec::new()))) };
+    let faults = recovery.join(&whole, lower::check(&files).err().unwrap_or_default());
+    if faults.is_empty() { Ok((whole, files)) } else { Err(within(source, &whole, faults)) }
 }
 
 fn front(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
     let (whole, files, lowered) = lowered(source, loaded)?;
-    let errors = analysis::errors(&files.main, &lowered);
+    let errors = analysis::errors(&files, &lowered);
     if errors.is_empty() { Ok((whole, files, lowered)) } else { Err(errors) }
 }
 

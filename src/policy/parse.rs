@@ -20,7 +20,7 @@ use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
 use expression::{binary, choice, climb, named_value};
 use reader::{Reader, values};
-use state::{state, target, variable};
+use state::{behaviour, monitor, state, target, variable};
 use test::{property, test};
 
 type Parsed<T> = Result<T, Box<Diagnostic>>;
@@ -45,6 +45,8 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         derived: Vec::new(),
         laws: Vec::new(),
         states: Vec::new(),
+        behaviours: Vec::new(),
+        monitors: Vec::new(),
         memory: Vec::new(),
         acts: None,
         body: Vec::new(),
@@ -99,6 +101,8 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 body: block(reader.take(Rule::block)?)?,
             }),
             Rule::state => state(&mut reader, None, &mut file.states)?,
+            Rule::monitor => file.monitors.push(monitor(&mut reader)?),
+            Rule::behaviour => file.behaviours.push(behaviour(item)?),
             Rule::always => file.always.push(transition(reader.take(Rule::when)?)?),
             Rule::test => file.tests.push(test(&mut reader)?),
             Rule::property => file.tests.push(property(&mut reader)?),

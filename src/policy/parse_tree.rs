@@ -150,6 +150,10 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_stop
             | Rule::kw_var
             | Rule::kw_set
+            | Rule::kw_behaviour
+            | Rule::kw_monitor
+            | Rule::kw_is
+            | Rule::kw_on
             | Rule::kw_entry
             | Rule::kw_exit
             | Rule::kw_test

@@ -17,9 +17,9 @@ use super::parse::parse;
 const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
-const ITEM_WORDS: [&str; 15] = [
-    "type", "whisker", "needs", "param", "initial", "let", "law", "state", "always", "failsafe", "use", "test",
-    "property", "machine", "library",
+const ITEM_WORDS: [&str; 17] = [
+    "type", "whisker", "needs", "param", "initial", "let", "law", "state", "behaviour", "monitor", "always", "failsafe", "use",
+    "test", "property", "machine", "library",
 ];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
@@ -30,7 +30,7 @@ const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", 
 /// Keywords that can begin a continuation line of an item.
 const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
 /// Keywords that begin other parts of a state.
-const PART_WORDS: [&str; 6] = ["let", "when", "after", "entry", "exit", "failsafe"];
+const PART_WORDS: [&str; 7] = ["let", "when", "after", "on", "entry", "exit", "failsafe"];
 
 /// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]
@@ -124,8 +124,8 @@ impl Recovery {
         match fault.code {
             // An unknown name, or unknown memory.
             "P0201" | "P0406" => self.lost_use || self.lost.contains(source.slice(fault.primary.span)),
-            // The omitted parts may declare whiskers.
-            "P0412" => !self.faults.is_empty(),
+            // The omitted parts may declare whiskers, or connect exits.
+            "P0412" | "P0421" => !self.faults.is_empty(),
             // The omitted parts may declare the initial state.
             "P0404" => !self.faults.is_empty() && !self.has_initial,
             _ => false,
@@ -256,7 +256,10 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
     let (mut braces, mut parentheses) = (0_usize, 0_usize);
     let mut starts = Vec::new();
     let mut before = "";
+    // True if the last token is the end of an arrow.
+    let mut is_target = false;
     for token in Tokens::new(&text[start..]) {
+        let is_begin = !std::mem::replace(&mut is_target, text[start + token.start..].starts_with('>'));
         let word = &text[start + token.start..start + token.end];
         let is_value = word == "if" && is_before_expression(before);
         before = word;
@@ -269,6 +272,7 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
             // At the beginning of a line a statement begins even if a parenthesis was left open.
             word if braces == 0
                 && !is_value
+                && is_begin
                 && (STATEMENT_WORDS.contains(&word) || PART_WORDS.contains(&word))
                 && (parentheses == 0 || token.indent.is_some()) =>
             {

@@ -4,10 +4,11 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 6] = [
+pub(super) const MODULES: [(&str, &str); 7] = [
     ("feelers", include_str!("../../policies/std/feelers.fsm")),
     ("guards", include_str!("../../policies/std/guards.fsm")),
     ("mounting", include_str!("../../policies/std/mounting.fsm")),
+    ("platform", include_str!("../../policies/std/platform.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
     ("swipe", include_str!("../../policies/std/swipe.fsm")),
     ("tunnel", include_str!("../../policies/std/tunnel.fsm")),

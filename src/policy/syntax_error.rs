@@ -9,15 +9,15 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
-const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `type`, `param`, `initial`, `var`, `let`, `law`, `state`, `always`, `failsafe`, `test`, `property`)";
+const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `type`, `param`, `initial`, `var`, `let`, `law`, `state`, `behaviour`, `monitor`, `always`, `failsafe`, `test`, `property`)";
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
-const ITEM_WORDS: [&str; 13] = [
-    "machine", "library", "use", "whisker", "needs", "type", "param", "initial", "law", "state", "always", "test",
-    "property",
+const ITEM_WORDS: [&str; 15] = [
+    "machine", "library", "use", "whisker", "needs", "type", "param", "initial", "law", "state", "behaviour", "monitor",
+    "always", "test", "property",
 ];
 
 /// The diagnostic for an error of pest.
@@ -261,6 +261,8 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::family => (0, "a family of scenes such as `convex-corner`"),
         Rule::name | Rule::argument | Rule::range => (0, "a name"),
         Rule::target => (0, "the name of a state"),
+        Rule::kw_is | Rule::application => (1, "`is`"),
+        Rule::received => (1, "`(`"),
         Rule::type_name => (0, "a type"),
         Rule::module => (0, "a module such as `std.swipe`"),
         Rule::text if among.contains(&Rule::module) => (0, "the path of a file in quotes"),
@@ -305,6 +307,10 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_let => "let",
         Rule::kw_law => "law",
         Rule::kw_state => "state",
+        Rule::kw_behaviour => "behaviour",
+        Rule::kw_monitor => "monitor",
+        Rule::kw_is => "is",
+        Rule::kw_on => "on",
         Rule::kw_always => "always",
         Rule::kw_test => "test",
         Rule::kw_property => "property",

@@ -24,6 +24,8 @@ pub(super) enum Type {
     Body,
     /// A whole run, in a test.
     Run,
+    /// The monitor with this index.
+    Monitor(usize),
 }
 
 /// An enumeration.
@@ -105,6 +107,7 @@ impl fmt::Display for Type {
             Self::Contour => f.write_str("a contour"),
             Self::Body => f.write_str("the body"),
             Self::Run => f.write_str("the run"),
+            Self::Monitor(_) => f.write_str("a monitor"),
         }
     }
 }

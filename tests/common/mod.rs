@@ -77,6 +77,11 @@ impl Senses for Script {
             BodyScalar::Yaw => 0.5,
             BodyScalar::Blocked => f64::from(u8::from(self.now % 2 == 1)),
             BodyScalar::Shortfall => 0.01,
+            BodyScalar::Length => 0.18,
+            BodyScalar::Width => 0.12,
+            BodyScalar::NoseWidth => 0.03,
+            BodyScalar::TailWidth => 0.11,
+            BodyScalar::NoseReach => 0.1,
         }
     }
 

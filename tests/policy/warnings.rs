@@ -167,6 +167,11 @@ impl Senses for Told {
             BodyScalar::Yaw => "body.yaw",
             BodyScalar::Blocked => "body.blocked",
             BodyScalar::Shortfall => "body.shortfall",
+            BodyScalar::Length => "body.length",
+            BodyScalar::Width => "body.width",
+            BodyScalar::NoseWidth => "body.nose_width",
+            BodyScalar::TailWidth => "body.tail_width",
+            BodyScalar::NoseReach => "nose",
         })
     }
 

@@ -14,7 +14,7 @@ const fn rule(mark: char, ends: usize, forms: &'static [&'static str]) -> Rule {
 }
 
 /// In a form, `%` and a mark stand for what the mark's rule gives.
-const RULES: [Rule; 33] = [
+const RULES: [Rule; 34] = [
     // Truths, numbers, angles, lengths, times, speeds, vectors, whiskers, contours.
     rule(
         'b',
@@ -276,6 +276,22 @@ const RULES: [Rule; 33] = [
     rule('Z', 1, &["when %b for 0.1 s -> %Y", "when %b -> %Y", "when %b for %t -> %Y", "after %t -> %Y"]),
     rule('P', 1, &["", "var kept = %n", "var kept = 0 entry { set kept = %n }", "var kept = %n exit { record %w }"]),
     rule('A', 2, &["", "%F", "always when %b -> %G", "always when %b for %t -> %G"]),
+    // A behaviour that a state uses, perhaps with another in it, and monitors.
+    rule(
+        'N',
+        2,
+        &[
+            "",
+            "monitor seen { var much = %n if %b { set much = %n } }",
+            "behaviour wander(w: whisker, x: number) { exit far(d: length) exit gone initial Start var own = x when %b -> exit gone \
+            state Start { stop set own = %n when w.touching -> Later after %t -> exit far(%l) } state Later { hold when x > own -> exit far(w.length) } } \
+            state Used(w: whisker) is wander(w, %n) { on far(at) -> Third(%n, at) on gone -> %G %T }",
+            "monitor felt(w: whisker, x: number) { var most = x let more = most + 1 if w.touching { set most = more } } monitor right is felt(r0, %n) monitor left is felt(l0, right.most) \
+            behaviour outer { exit done initial Run state Run is inner(r0) { on full(n) -> exit done on none -> Run } } \
+            behaviour inner(w: whisker) { exit full(x: number) exit none record w when w.touching -> exit full(2) after 1 s -> exit none } \
+            state Used is outer { on done -> First when left.most > %n -> %G }",
+        ],
+    ),
     rule('F', 1, &["", "failsafe -> %G"]),
     // What is expected of a run, and tests.
     rule(
@@ -345,7 +361,7 @@ const RULES: [Rule; 33] = [
             state Outer(w: whisker) { initial Middle(%n) var held = %n failsafe -> %H entry { set held = %n mark lost w } record w %I \
             state Inner(x: number, d: length) { var own = x set own = lowpass(own, 1 Hz) + held set held = own / 2 %S when d > %l -> Middle(x) %I exit { mark found w } } \
             state Middle(y: number) { initial Innermost set held = y %S state Innermost { %S %J failsafe -> %K } state Beside { when %b for pause -> Innermost %J } %J } } \
-            state Plain { initial Inside(%w) state Inside(w: whisker) { %S %Z } %Z exit { record %w } } %A %A",
+            state Plain { initial Inside(%w) state Inside(w: whisker) { %S %Z } %Z exit { record %w } } %A %A %N",
         ],
     ),
     rule(

@@ -27,7 +27,11 @@ const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 const STACK: usize = 2 << 20;
 
 /// Words and signs of the language, and some that it does not have.
-const TOKENS: [&str; 109] = [
+const TOKENS: [&str; 113] = [
+    "behaviour",
+    "monitor",
+    "is",
+    "on",
     "var",
     "set",
     "entry",

@@ -28,7 +28,8 @@ mod witness;
 
 use crate::diagnostic::Diagnostic;
 
-use super::ast::File;
+use super::ast::Behaviour;
+use super::expand::Instance;
 use super::load::Files;
 use super::lower::Lowered;
 use model::{Edge, Model};
@@ -38,13 +39,13 @@ use search::Search;
 const WARNING_LIMIT: usize = 50;
 
 /// Errors of the policy as a whole: cycles of transitions within one tick.
-pub(super) fn errors(file: &File, lowered: &Lowered) -> Vec<Diagnostic> {
-    in_order(cycle::cycles(&Model::new(file, lowered)))
+pub(super) fn errors(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
+    in_order(cycle::cycles(&Model::new(files, lowered)))
 }
 
 /// Warnings, in the order of the text.
 pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
-    let model = Model::new(&files.main, lowered);
+    let model = Model::new(files, lowered);
     let mut warnings = Vec::new();
     unused::unused(files, &mut warnings);
     reachability::unreachable(&model, &mut warnings);
@@ -60,7 +61,28 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
         search.bounds.work += outer.len();
         due.push(transitions(&mut search, (&model.always, &outer), &state.edges, &mut warnings));
     }
-    in_order(warnings)
+    in_order(in_all_copies(files, warnings))
+}
+
+/// The warnings about the text of the policy itself. One about a behaviour counts only if it holds for every copy.
+fn in_all_copies(files: &Files, warnings: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let own_end = files.libraries.iter().map(|library| library.name.span.start).min().unwrap_or(usize::MAX);
+    let mut kept: Vec<Diagnostic> = Vec::with_capacity(warnings.len());
+    for warning in &warnings {
+        let is_same = |other: &&Diagnostic| (other.code, other.primary.span) == (warning.code, warning.primary.span);
+        let is_within = |behaviour: &&Behaviour| {
+            (behaviour.span.start..behaviour.span.end).contains(&warning.primary.span.start)
+        };
+        let copies = files.main.behaviours.iter().find(is_within).map_or(1, |behaviour| {
+            let used = |instance: &&Instance| instance.user.is_some() && instance.name.span == behaviour.name.span;
+            files.machine.instances.iter().filter(used).count()
+        });
+        let is_whole = warning.code == "P0507" || warnings.iter().filter(is_same).count() >= copies;
+        if warning.primary.span.start < own_end && is_whole && !kept.iter().any(|other| is_same(&other)) {
+            kept.push(warning.clone());
+        }
+    }
+    kept
 }
 
 /// Warnings about a library, in the order of the text.

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::diagnostic::Span;
 use crate::policy::ast::{self, File};
+use crate::policy::load::Files;
 use crate::policy::lower::Lowered;
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{self, Program, Register};
@@ -116,9 +117,9 @@ pub(super) struct Condition<'a> {
 }
 
 impl<'a> Model<'a> {
-    pub(super) fn new(file: &'a File, lowered: &'a Lowered) -> Self {
-        let program = &lowered.program;
-        let states = file.states.iter().zip(&program.states).zip(&lowered.arguments);
+    pub(super) fn new(files: &'a Files, lowered: &'a Lowered) -> Self {
+        let (file, program) = (&files.main, &lowered.program);
+        let states = files.machine.states.iter().zip(&program.states).zip(&lowered.arguments);
         let states = states.enumerate().map(|(index, ((written, state), arguments))| Node {
             name: &written.name,
             edges: edges(Some(index), &state.transitions, &written.transitions),

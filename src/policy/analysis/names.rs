@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::policy::ast::{Argument, Expression, Guard, Kind, Name, Statement, Target, Transition, Turn};
+use crate::policy::ast::{Argument, Connection, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition, Turn};
 
 /// A set of used names.
 #[derive(Debug, Default)]
@@ -34,6 +34,33 @@ impl<'a> Names<'a> {
         self.used.extend(within.used.difference(&within.given));
     }
 
+    /// Records a used behaviour or monitor and its values.
+    pub(super) fn step(&mut self, step: &'a Step) {
+        self.used.insert(&step.name.text);
+        self.expressions(&step.values);
+    }
+
+    /// Records the names that a state uses, without those that its inner states use.
+    pub(super) fn state(&mut self, state: &'a State) {
+        if let Some(behaviour) = &state.behaviour {
+            self.step(behaviour);
+        }
+        state.initial.iter().for_each(|step| self.expressions(&step.values));
+        state.memory.iter().for_each(|(_, value)| self.expression(value));
+        for statements in [&state.entry, &state.body, &state.exit] {
+            self.statements(statements);
+        }
+        self.transitions(&state.transitions);
+        self.targets(&state.failsafes);
+        for Connection { names, target, .. } in &state.connections {
+            let within = Self::of(|within| {
+                within.give(names);
+                within.targets(std::slice::from_ref(target));
+            });
+            self.extend(&within);
+        }
+    }
+
     pub(super) fn transitions(&mut self, transitions: &'a [Transition]) {
         for Transition { guard, target } in transitions {
             match guard {
@@ -43,13 +70,13 @@ impl<'a> Names<'a> {
                 }
                 Guard::After(time) => self.expression(time),
             }
-            self.expressions(target.outer.iter().flat_map(|step| &step.values).chain(&target.values));
+            self.targets(std::slice::from_ref(target));
         }
     }
 
     pub(super) fn targets(&mut self, targets: &'a [Target]) {
         for target in targets {
-            self.expressions(&target.values);
+            self.expressions(target.outer.iter().flat_map(|step| &step.values).chain(&target.values));
         }
     }
 

@@ -72,5 +72,10 @@ fn is_same((a, b): (&Expression, &Expression)) -> bool {
 
 /// True if two transitions have the same target with the same values, as far as names show, or both end the run.
 fn leads_to_the_same(a: &Edge<'_>, b: &Edge<'_>) -> bool {
-    a.leads_to() == b.leads_to() && a.values().count() == b.values().count() && a.values().zip(b.values()).all(is_same)
+    let exit = |edge: &Edge<'_>| {
+        let target = &edge.written.target;
+        target.is_exit.then(|| target.name.text.clone())
+    };
+    let has_same_values = a.values().count() == b.values().count() && a.values().zip(b.values()).all(is_same);
+    a.leads_to() == b.leads_to() && exit(a) == exit(b) && has_same_values
 }

@@ -64,6 +64,9 @@ impl Domain {
             // The simplest body follows its commands, so that value comes first.
             Unknown::Body(BodyScalar::Blocked) => Self::Values(vec![0.0, 1.0]),
             Unknown::Body(BodyScalar::Shortfall) => range(0.0, DISTANCE_LIMIT),
+            Unknown::Body(BodyScalar::Length | BodyScalar::Width) => range(f64::MIN_POSITIVE, DISTANCE_LIMIT),
+            Unknown::Body(BodyScalar::NoseWidth | BodyScalar::TailWidth) => range(0.0, DISTANCE_LIMIT),
+            Unknown::Body(BodyScalar::NoseReach) => range(-DISTANCE_LIMIT, DISTANCE_LIMIT),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),

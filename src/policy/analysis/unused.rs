@@ -30,27 +30,32 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
         part(&mut names, &law.arguments, &law.name.text);
         used.extend(&names);
     }
-    let own = file.states.iter().map(|state| {
-        Names::of(|names| {
-            state.initial.iter().for_each(|step| names.expressions(&step.values));
-            state.memory.iter().for_each(|(_, value)| names.expression(value));
-            for statements in [&state.entry, &state.body, &state.exit] {
-                names.statements(statements);
+    for monitor in &file.monitors {
+        let mut names = Names::of(|names| {
+            if let Some(step) = &monitor.used {
+                names.step(step);
             }
-            names.transitions(&state.transitions);
-            names.targets(&state.failsafes);
-        })
-    });
-    let mut of_states: Vec<Names<'f>> = own.collect();
-    // Inner states know the names of a state. They follow it.
-    while let (Some(mut names), Some(state)) = (of_states.pop(), file.states.get(of_states.len())) {
-        part(&mut names, &state.arguments, &state.name.text);
-        names.give(state.memory.iter().map(|(name, _)| name));
-        let idle = state.memory.iter().filter(|(name, _)| !names.has(&name.text)).map(|(name, _)| name);
-        unread.extend(idle);
-        match state.parent {
-            Some(parent) => of_states[parent].extend(&names),
-            None => used.extend(&names),
+            monitor.memory.iter().for_each(|(_, value)| names.expression(value));
+            names.statements(&monitor.body);
+        });
+        part(&mut names, &monitor.arguments, &monitor.name.text);
+        // Others read the memory.
+        names.give(monitor.memory.iter().map(|(name, _)| name));
+        used.extend(&names);
+    }
+    let behaviours = file.behaviours.iter().map(|behaviour| behaviour.states.as_slice());
+    for states in behaviours.chain([file.states.as_slice()]) {
+        let mut of_states: Vec<Names<'f>> = states.iter().map(|state| Names::of(|names| names.state(state))).collect();
+        // Inner states know the names of a state. They follow it.
+        while let (Some(mut names), Some(state)) = (of_states.pop(), states.get(of_states.len())) {
+            part(&mut names, &state.arguments, &state.name.text);
+            names.give(state.memory.iter().map(|(name, _)| name));
+            let idle = state.memory.iter().filter(|(name, _)| !names.has(&name.text)).map(|(name, _)| name);
+            unread.extend(idle);
+            match state.parent {
+                Some(parent) => of_states[parent].extend(&names),
+                None => used.extend(&names),
+            }
         }
     }
     used.extend(&used_by_defaults);
@@ -94,7 +99,10 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let laws = file.laws.iter().map(|law| ("P0506", "law", &law.name));
     let enumerations = file.enumerations.iter().map(|item| ("P0506", "type", &item.name));
     let derived = file.derived.iter().map(|derived| ("P0506", "derived value", &derived.name));
-    for (code, kind, name) in parameters.chain(whiskers).chain(contours).chain(laws).chain(derived).chain(enumerations)
+    let behaviours = file.behaviours.iter().map(|behaviour| ("P0506", "behaviour", &behaviour.name));
+    let monitors = file.monitors.iter().map(|monitor| ("P0506", "monitor", &monitor.name));
+    for (code, kind, name) in
+        parameters.chain(whiskers).chain(contours).chain(laws).chain(derived).chain(behaviours).chain(monitors).chain(enumerations)
     {
         if !used.has(&name.text) {
             warnings.push(never_used(code, kind, name, "use it or leave it out"));

@@ -26,6 +26,10 @@ pub(in crate::policy) enum MemberSource {
     Contour,
     Body(BodyScalar),
     BodyPosition,
+    /// The middle of the nose.
+    Nose,
+    /// The middle of the tail.
+    Tail,
     /// Only with arguments.
     At,
     Run(RunFigure),
@@ -184,7 +188,7 @@ const CONTOUR: [Member; 6] = [
     ),
 ];
 
-const BODY: [Member; 4] = [
+const BODY: [Member; 10] = [
     member(
         "yaw",
         Type::ANGLE,
@@ -203,6 +207,27 @@ const BODY: [Member; 4] = [
         Type::SPEED,
         MemberSource::Body(BodyScalar::Shortfall),
         "the difference between commanded and actual speed, averaged over 0.2 s, at the corner of the body where it is largest",
+    ),
+    member("nose", Type::POSITION, MemberSource::Nose, "the middle of the nose of the platform, from the rig"),
+    member("tail", Type::POSITION, MemberSource::Tail, "the middle of the tail of the platform, from the rig"),
+    member(
+        "length",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::Length),
+        "the length of the platform from tail to nose, from the rig",
+    ),
+    member("width", Type::LENGTH, MemberSource::Body(BodyScalar::Width), "the greatest width of the platform, from the rig"),
+    member(
+        "nose_width",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::NoseWidth),
+        "the width of the platform at the nose, from the rig",
+    ),
+    member(
+        "tail_width",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::TailWidth),
+        "the width of the platform at the tail, from the rig",
     ),
 ];
 
@@ -317,6 +342,6 @@ pub(in crate::policy) fn members(owner: Type) -> &'static [Member] {
         Type::Contour => &CONTOUR,
         Type::Body => &BODY,
         Type::Run => &RUN,
-        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Vector(_) => &[],
+        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Vector(_) | Type::Monitor(_) => &[],
     }
 }

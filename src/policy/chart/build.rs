@@ -3,77 +3,153 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Source, Span};
-use crate::policy::ast::{self, File};
+use crate::policy::ast::{self, File, Step};
+use crate::policy::expand::{Expanded, Instance};
+use crate::policy::load::Files;
 use crate::policy::lower::SUCCESS;
 
-use super::{Argument, Chart, Guard, Origin, State, Target, Transition};
+use super::{Argument, Chart, Exit, Guard, Origin, State, Target, Transition};
 
-/// The chart of a file that compiles.
-pub(in crate::policy) fn build(source: &Source, file: &File) -> Chart {
-    let names = file.states.iter().map(|state| state.name.text.as_str());
-    let builder = Builder { source, states: names.zip(0..).collect() };
-    let of_states = file.states.iter().zip(0..).map(|(state, index)| (Origin::State(index), state));
-    let of_states =
-        of_states.flat_map(|(origin, state)| builder.transitions(origin, &state.transitions, &state.failsafes));
-    let always = builder.transitions(Origin::AnyState, &file.always, &file.failsafes);
-    Chart {
+/// The chart of files that compile: that of the machine, or those of all behaviours of a library.
+pub(in crate::policy) fn build(source: &Source, files: &Files) -> Chart {
+    let file = &files.main;
+    let own: Vec<&Expanded> = match files.behaviours.first() {
+        Some(behaviours) if file.is_library => behaviours.iter().collect(),
+        _ => vec![&files.machine],
+    };
+    let mut chart = Chart {
         machine: file.name.text.clone(),
-        states: file.states.iter().zip(0..).map(|(state, index)| builder.state(index, state, file)).collect(),
-        transitions: always.into_iter().chain(of_states).collect(),
-        parents: file.states.iter().map(|state| state.parent).collect(),
+        states: Vec::new(),
+        transitions: Vec::new(),
+        parents: Vec::new(),
         is_overview: false,
+    };
+    if !file.is_library {
+        let builder = Builder::new(source, &files.machine, (0, 0));
+        chart.transitions = builder.transitions(Origin::AnyState, None, &file.always, &file.failsafes);
+    }
+    for expanded in own {
+        let builder = Builder::new(source, expanded, (chart.states.len(), chart.parents.len()));
+        for index in 0..expanded.states.len() {
+            let state = builder.state(index, file);
+            chart.states.extend(state);
+        }
+        for (index, state) in expanded.states.iter().enumerate() {
+            let origin = Origin::State(builder.places[index]);
+            chart.transitions.extend(builder.transitions(origin, Some(index), &state.transitions, &state.failsafes));
+        }
+        let first = chart.parents.len();
+        chart.parents.extend(expanded.states.iter().map(|state| state.parent.map(|parent| first + parent)));
+    }
+    // The transitions of a state and of its behaviour have one origin.
+    for place in 0..chart.states.len() {
+        number(&mut chart.transitions, Origin::State(place));
+    }
+    number(&mut chart.transitions, Origin::AnyState);
+    chart
+}
+
+/// Numbers the transitions of an origin in the order in which they are tried. Fallback transitions are not tried among
+/// the others.
+fn number(transitions: &mut [Transition], origin: Origin) {
+    let tried = transitions.iter_mut().filter(|one| one.origin == origin && one.guard != Guard::Failsafe);
+    let mut tried: Vec<&mut Transition> = tried.collect();
+    if tried.len() > 1 {
+        tried.iter_mut().zip(1..).for_each(|(transition, number)| transition.number = Some(number));
     }
 }
 
 struct Builder<'f> {
     source: &'f Source,
-    /// The index of each state.
-    states: HashMap<&'f str, usize>,
+    expanded: &'f Expanded,
+    /// For each state, its index in the chart. The outermost state of a copy of a behaviour is drawn as the state that
+    /// uses it.
+    places: Vec<usize>,
+    /// The index of each state by its instance and name.
+    states: HashMap<(usize, &'f str), usize>,
+    /// The number of states of the machine that precede these.
+    offset: usize,
 }
 
-impl Builder<'_> {
-    fn state(&self, index: usize, state: &ast::State, file: &File) -> State {
+impl<'f> Builder<'f> {
+    /// `drawn` and `offset` are the numbers of states that the chart and the machine already have.
+    fn new(source: &'f Source, expanded: &'f Expanded, (drawn, offset): (usize, usize)) -> Self {
+        let mut places: Vec<usize> = Vec::with_capacity(expanded.states.len());
+        let mut next = drawn;
+        for (index, state) in expanded.states.iter().enumerate() {
+            match state.parent {
+                Some(parent) if expanded.is_root(index) => places.push(places[parent]),
+                _ => {
+                    places.push(next);
+                    next += 1;
+                }
+            }
+        }
+        let names = expanded.states.iter().map(|state| (state.instance, state.name.text.as_str()));
+        Self { source, expanded, places, states: names.zip(0..).collect(), offset }
+    }
+
+    /// A state. `None` for the outermost state of a copy of a behaviour.
+    fn state(&self, index: usize, file: &File) -> Option<State> {
+        if self.expanded.is_root(index) {
+            return None;
+        }
+        let state = &self.expanded.states[index];
         let arguments = state.arguments.iter().map(|argument| {
             let type_name = self.text(argument.type_name.span());
             let default = argument.default.as_ref().map(|default| self.text(default.span));
             let type_name = default.map_or(type_name.clone(), |default| format!("{type_name} = {default}"));
             Argument { name: argument.name.text.clone(), type_name }
         });
-        let outer = state.parent.map(|parent| &file.states[parent]);
+        let outer = state.parent.map(|parent| &self.expanded.states[parent]);
         let begin = outer.into_iter().flat_map(|outer| &outer.initial).find(|step| step.name.text == state.name.text);
-        State {
-            index,
-            name: state.name.text.clone(),
+        let is_first = state.instance == 0 && file.initial.iter().any(|initial| initial.text == state.name.text);
+        Some(State {
+            index: self.offset + index,
+            name: self.name(index, file),
             arguments: arguments.collect(),
-            parent: state.parent,
-            initial: file.initial.iter().any(|initial| initial.text == state.name.text) || begin.is_some(),
+            behaviour: state.behaviour.as_ref().map(|step| self.step(step)),
+            parent: state.parent.map(|parent| self.places[parent]),
+            initial: is_first || begin.is_some(),
             values: begin.map_or_else(Vec::new, |step| self.texts(&step.values)),
             hidden: 0,
+        })
+    }
+
+    /// The name of a state, which no other one in the chart has.
+    fn name(&self, index: usize, file: &File) -> String {
+        let path = self.expanded.path(index);
+        match self.expanded.instances.first() {
+            Some(behaviour) if file.is_library && index > 0 => format!("{}.{path}", behaviour.name.text),
+            _ => path,
         }
     }
 
-    /// The transitions from one origin, and its fallback transition. A transition to an unknown state is omitted. A
-    /// file that compiles has none.
+    /// A name with its values.
+    fn step(&self, step: &Step) -> String {
+        let values = self.texts(&step.values).join(", ");
+        if values.is_empty() { step.name.text.clone() } else { format!("{}({values})", step.name.text) }
+    }
+
+    /// The transitions of the state `from`, or the global ones, and the fallback transition. A transition to an unknown
+    /// state is omitted. A file that compiles has none.
     fn transitions(
         &self,
         origin: Origin,
+        from: Option<usize>,
         transitions: &[ast::Transition],
         failsafes: &[ast::Target],
     ) -> Vec<Transition> {
+        let instance = from.map_or(0, |from| self.expanded.states[from].instance);
         let transitions = transitions.iter().map(|transition| (self.guard(&transition.guard), &transition.target));
         let built = transitions.chain(failsafes.iter().map(|target| (Guard::Failsafe, target)));
-        let mut built: Vec<Transition> = built
-            .filter_map(|(guard, target)| {
-                Some(Transition { origin, number: None, guard, target: self.target(target)? })
-            })
-            .collect();
-        // A fallback transition is not tried among the others.
-        let tried = built.iter_mut().filter(|transition| transition.guard != Guard::Failsafe);
-        let mut tried: Vec<&mut Transition> = tried.collect();
-        if tried.len() > 1 {
-            tried.iter_mut().zip(1..).for_each(|(transition, number)| transition.number = Some(number));
-        }
         built
+            .filter_map(|(guard, target)| {
+                let mut exits = Vec::new();
+                let target = self.target(instance, target, &mut exits)?;
+                Some(Transition { origin, number: None, guard, exits, target })
+            })
+            .collect()
     }
 
     fn guard(&self, guard: &ast::Guard) -> Guard {
@@ -86,18 +162,30 @@ impl Builder<'_> {
         }
     }
 
-    fn target(&self, target: &ast::Target) -> Option<Target> {
+    /// A target of a transition of an instance. Exits on the way to it are added to `exits`.
+    fn target(&self, instance: usize, target: &ast::Target, exits: &mut Vec<Exit>) -> Option<Target> {
+        let of = |name: &ast::Name| self.states.get(&(instance, name.text.as_str())).copied();
         Some(match target {
+            ast::Target { is_exit: true, name, values, .. } => {
+                let Instance { user, name: behaviour, .. } = self.expanded.instances.get(instance)?;
+                let values = self.texts(values);
+                let Some(user) = *user else {
+                    return Some(Target::Exit { behaviour: behaviour.text.clone(), name: name.text.clone(), values });
+                };
+                exits.push(Exit { state: self.places[user], name: name.text.clone(), values });
+                let state = &self.expanded.states[user];
+                let connection = state.connections.iter().find(|connection| connection.exit.text == name.text)?;
+                return self.target(state.instance, &connection.target, exits);
+            }
             ast::Target { text: Some(reason), name, .. } if name.text == SUCCESS => {
                 Target::Success(reason.text.clone())
             }
             ast::Target { text: Some(reason), .. } => Target::Failure(reason.text.clone()),
             ast::Target { resume, outer, name, values, .. } => {
-                let outer = outer
-                    .iter()
-                    .map(|step| Some((*self.states.get(step.name.text.as_str())?, self.texts(&step.values))));
+                let outer =
+                    outer.iter().map(|step| Some((self.places[of(&step.name)?], self.texts(&step.values))));
                 Target::State {
-                    state: *self.states.get(name.text.as_str())?,
+                    state: self.places[of(name)?],
                     outer: outer.collect::<Option<_>>()?,
                     values: self.texts(values),
                     resume: resume.is_some(),

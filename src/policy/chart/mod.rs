@@ -46,6 +46,20 @@ impl Chart {
         self.transitions.iter().any(|transition| matches!(transition.target, Target::Failure(_)))
     }
 
+    /// The exits of behaviours that are drawn by themselves: the names of the behaviour and of the exit, each once.
+    #[must_use]
+    pub fn ends(&self) -> Vec<(&str, &str)> {
+        let mut ends = Vec::new();
+        for transition in &self.transitions {
+            if let Target::Exit { behaviour, name, .. } = &transition.target
+                && !ends.contains(&(behaviour.as_str(), name.as_str()))
+            {
+                ends.push((behaviour, name));
+            }
+        }
+        ends
+    }
+
     /// True if a transition leads to success.
     #[must_use]
     pub fn has_success(&self) -> bool {
@@ -62,6 +76,8 @@ pub struct State {
     pub name: String,
     /// The arguments.
     pub arguments: Vec<Argument>,
+    /// The behaviour that is its content, with the values of the arguments: `follow(w, 50 mm/s)`.
+    pub behaviour: Option<String>,
     /// Index of the state that contains it. `None` for an outermost state.
     pub parent: Option<usize>,
     /// True if it is the initial state of the machine or of the state that contains it.
@@ -91,8 +107,21 @@ pub struct Transition {
     pub number: Option<usize>,
     /// The guard.
     pub guard: Guard,
+    /// The exits of behaviours through which it leads to the target, from the innermost to the outermost.
+    pub exits: Vec<Exit>,
     /// The target.
     pub target: Target,
+}
+
+/// An exit of a behaviour that a state uses.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exit {
+    /// Index of the state that uses the behaviour.
+    pub state: usize,
+    /// The name of the exit.
+    pub name: String,
+    /// The values of the exit.
+    pub values: Vec<String>,
 }
 
 /// The origin of a transition.
@@ -118,6 +147,8 @@ pub enum Guard {
     After(String),
     /// The machine cannot continue in the state (fallback transition).
     Failsafe,
+    /// The behaviour of the state ends by this exit. Its inner states are not shown.
+    Exit(String),
 }
 
 /// The target of a transition.
@@ -138,4 +169,13 @@ pub enum Target {
     Failure(String),
     /// The end of the run as a success, with this reason.
     Success(String),
+    /// An exit of a behaviour that is drawn by itself.
+    Exit {
+        /// The name of the behaviour.
+        behaviour: String,
+        /// The name of the exit.
+        name: String,
+        /// The values of the exit.
+        values: Vec<String>,
+    },
 }

@@ -2,7 +2,7 @@
 
 use vibrissa_runtime::units::suggest;
 
-use super::{Chart, Origin, State, Target, Transition};
+use super::{Chart, Exit, Guard, Origin, State, Target, Transition};
 
 /// The visible part of a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -146,7 +146,15 @@ impl Selection<'_> {
             }
             (target, _) => target.clone(),
         };
-        Transition { origin, number, guard: transition.guard.clone(), target }
+        let is_hidden = matches!(transition.origin, Origin::State(whole) if self.ancestor(whole) != whole);
+        let of_origin = |exit: &&Exit| is_hidden && from == index(exit.state);
+        let guard = match transition.exits.iter().find(of_origin) {
+            Some(exit) => Guard::Exit(exit.name.clone()),
+            None => transition.guard.clone(),
+        };
+        let exits = transition.exits.iter().filter(|exit| !of_origin(exit));
+        let exits = exits.filter_map(|exit| Some(Exit { state: index(exit.state)?, ..exit.clone() }));
+        Transition { origin, number, guard, exits: exits.collect(), target }
     }
 
     /// True if a state is the root or inside it.

@@ -55,7 +55,7 @@ pub struct Candidate {
 }
 
 /// Keywords that begin an item of a library.
-const IN_LIBRARIES: [&str; 4] = ["use", "let", "law", "type"];
+const IN_LIBRARIES: [&str; 6] = ["use", "let", "law", "type", "behaviour", "monitor"];
 /// Dimensions of numbers that occur in policies.
 const WRITTEN: [Dimension; 10] = [
     Dimension::LENGTH,
@@ -88,6 +88,12 @@ impl Index {
             Expected::Member(dot) => match self.resolved.owners.get(&dot) {
                 Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
                 Some(&Owner::Value(owner)) => members(owner).collect(),
+                Some(&Owner::State(monitor)) if self.symbols[monitor].kind == SymbolKind::Monitor => {
+                    let content = self.resolved.behaviours.get(&monitor).copied().unwrap_or(monitor);
+                    let is_memory =
+                        |symbol: &&Symbol| symbol.kind == SymbolKind::Memory && symbol.owner == Some(content);
+                    self.symbols.iter().filter(is_memory).map(|symbol| self.symbol(symbol)).collect()
+                }
                 Some(&Owner::State(outer)) => self.inner_states(outer),
                 Some(&Owner::Enumeration(owner)) => {
                     let choices = self.symbols.iter().filter(|symbol| symbol.owner == Some(owner));
@@ -112,6 +118,10 @@ impl Index {
             Expected::Chosen => self.exported(context),
             Expected::Value if context.level == Level::Test => self.values_of_a_run(context),
             Expected::Law => of_kind(&[SymbolKind::Law]).collect(),
+            Expected::Behaviour => of_kind(&[SymbolKind::Behaviour]).collect(),
+            Expected::Monitor => of_kind(&[SymbolKind::Monitor]).collect(),
+            Expected::Exit => of_kind(&[SymbolKind::Exit]).collect(),
+            Expected::Connected => self.connected(context),
             Expected::Memory => of_kind(&[SymbolKind::Memory]).collect(),
             Expected::Type => {
                 let built_in = ["whisker", "contour", "truth", "vector"].into_iter().map(of_type).chain(dimensions());
@@ -140,6 +150,7 @@ impl Index {
                 && context.statement != Some(symbol.whole.start)
                 && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
                 && (symbol.kind != SymbolKind::Memory || symbol.span.start < context.memory_end)
+                && (symbol.kind != SymbolKind::Memory || symbol.owner.is_some() || !context.in_behaviour)
         });
         let mut innermost: HashMap<&str, usize> = HashMap::new();
         for symbol in known.clone() {
@@ -175,7 +186,7 @@ impl Index {
         let import = self.imports.iter().find(|import| Some(import.start) == context.statement);
         let Some(part) = import.and_then(|import| import.part(&self.source)) else { return Vec::new() };
         let candidate = |symbol: &Symbol| Candidate { snippet: symbol.name.clone(), ..self.symbol(symbol) };
-        exports(&self.source, part).iter().map(|(symbol, _)| candidate(symbol)).collect()
+        exports(&self.source, part).iter().map(candidate).collect()
     }
 
     /// Keywords that begin a statement or an item at this level of braces.

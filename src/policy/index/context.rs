@@ -4,7 +4,7 @@ use crate::catalogue;
 use crate::diagnostic::Span;
 use crate::policy::format::{Token, TokenKind, tokens};
 
-use super::declare::{declare, is_balanced, span_of};
+use super::declare::{Frame, declare, is_balanced, span_of};
 
 /// The construct that is expected at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +19,14 @@ pub(super) enum Expected {
     /// A state after `resume`.
     Resumed,
     Law,
+    /// A behaviour.
+    Behaviour,
+    /// A monitor.
+    Monitor,
+    /// An exit of the behaviour around the position.
+    Exit,
+    /// An exit of the behaviour that the state uses.
+    Connected,
     /// Any state.
     State,
     /// Memory of a state or of the machine.
@@ -82,6 +90,8 @@ pub(super) struct Context {
     pub(super) state: Option<Span>,
     /// Start of the current statement. Its own declarations are not visible in it.
     pub(super) statement: Option<usize>,
+    /// True in a behaviour, which does not know the memory of the machine.
+    pub(super) in_behaviour: bool,
     /// True in a transition. Names of the state's statements are not visible there.
     pub(super) in_transition: bool,
     /// Memory that is declared from this byte on is not visible.
@@ -102,6 +112,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         state: None,
         statement: None,
         in_transition: false,
+        in_behaviour: false,
         memory_end: 0,
     };
     if known.last().is_some_and(|last| is_unfinished(before, *last)) {
@@ -118,13 +129,14 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     let frame = declared.frames.last().cloned().unwrap_or_default();
     let level = match frame.head {
         None => Level::Outside,
-        Some("state") => Level::State,
+        Some("state" | "behaviour") => Level::State,
         Some("test" | "property") => Level::Test,
         Some(_) => Level::Block,
     };
     let statement = frame.statement.and_then(|start| known.get(start..)).unwrap_or_default();
     let head = statement.first().map(|token| token.text);
-    let states = declared.frames.iter().rev().filter(|frame| frame.head == Some("state"));
+    let is_state = |frame: &&Frame<'_>| matches!(frame.head, Some("state" | "behaviour"));
+    let states = declared.frames.iter().rev().filter(is_state);
     let state = states.filter_map(|frame| declared.symbols.get(frame.owner?)).map(|state| state.span).next();
     let outermost = declared.frames.get(1).map_or(head, |frame| frame.head);
     Context {
@@ -133,7 +145,8 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         level,
         state,
         statement: statement.first().map(|token| token.start),
-        in_transition: matches!(head, Some("when" | "after" | "failsafe" | "initial" | "var")),
+        in_transition: matches!(head, Some("when" | "after" | "on" | "failsafe" | "initial" | "var")),
+        in_behaviour: outermost == Some("behaviour"),
         memory_end: match outermost {
             Some("law" | "let") => 0,
             Some("var") => at,
@@ -172,6 +185,9 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, "..") => Expected::Nothing,
         (TokenKind::Mark, "{") => Expected::Statement(level),
         (TokenKind::Mark, "(" | ",") if is_declaring(statement) => Expected::Nothing,
+        (TokenKind::Mark, "(" | ",") if head == Some("on") && !statement.iter().any(|token| token.is("->")) => {
+            Expected::Nothing
+        }
         (TokenKind::Mark, "*" | "/") if is_declaring(statement) => Expected::Dimension,
         (TokenKind::Mark, "=") if matches!(head, Some("param" | "property" | "type")) => Expected::Nothing,
         (TokenKind::Keyword, "or") if head == Some("type") => Expected::Nothing,
@@ -184,6 +200,7 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Number, _) if known_apart(typed, *before) => more(statement, level),
         (TokenKind::Number, _) => Expected::Unit,
         (TokenKind::Name, "lost" | "found") if behind(known, 1) == Some("mark") => Expected::Value,
+        (TokenKind::Keyword, "exit") if behind(known, 1) == Some("->") => Expected::Exit,
         (TokenKind::Keyword, word) => behind_word(word, statement, level),
         (TokenKind::Name, "vector") if is_declaring(statement) => Expected::Only("of"),
         _ => more(statement, level),
@@ -205,9 +222,14 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     match word {
         "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
-        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
-        | "exit" | "test" | "property" => Expected::Nothing,
+        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
+        | "test" | "property" => Expected::Nothing,
+        "behaviour" => Expected::Nothing,
         "initial" => Expected::Initial,
+        "is" if head == Some("monitor") => Expected::Monitor,
+        "is" => Expected::Behaviour,
+        "monitor" => Expected::Nothing,
+        "on" => Expected::Connected,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
         "set" => Expected::Memory,
@@ -229,7 +251,9 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
 /// True if the statement is at or before its list of arguments, or lists whiskers.
 fn is_declaring(statement: &[Token<'_>]) -> bool {
     match statement.first().map(|token| token.text) {
-        Some("law" | "state" | "whisker") => true,
+        Some("state" | "monitor") => !statement.iter().any(|token| token.text == "is"),
+        Some("exit") => true,
+        Some("law" | "behaviour" | "whisker") => true,
         Some("let") => !has_value(statement),
         _ => false,
     }
@@ -287,7 +311,9 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("test") if !has("in") => return Expected::Only("in"),
         Some("property") if !has("over") => return Expected::Only("over"),
         Some("property") if is_range_begun(statement) => return Expected::Only("in"),
-        Some("law" | "state" | "test" | "property") if !has("}") => return Expected::Nothing,
+        Some("state" | "monitor") if !has("}") && !has("is") => return Expected::Only("is"),
+        Some("on") if !has("->") => return Expected::Only("->"),
+        Some("law" | "state" | "behaviour" | "test" | "property") if !has("}") => return Expected::Nothing,
         _ => &[],
     };
     Expected::More(level, words)

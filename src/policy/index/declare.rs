@@ -85,8 +85,13 @@ impl<'t> Declared<'t> {
         }
         self.finish_statement();
         let is_the_machines = |symbol: &Symbol| symbol.kind == SymbolKind::Memory && symbol.owner.is_none();
-        for symbol in self.symbols.iter_mut().filter(|symbol| symbol.kind.is_item() || is_the_machines(symbol)) {
-            symbol.visible = Span::new(0, text.len());
+        for index in 0..self.symbols.len() {
+            let symbol = &self.symbols[index];
+            if symbol.kind.is_item() || is_the_machines(symbol) {
+                // The states of a behaviour are known only in it.
+                let around = behaviour_around(&self.symbols, index).map(|behaviour| self.symbols[behaviour].whole);
+                self.symbols[index].visible = around.unwrap_or(Span::new(0, text.len()));
+            }
         }
         self.symbols
     }
@@ -100,8 +105,8 @@ impl<'t> Declared<'t> {
         let before = index.checked_sub(1).map(|before| tokens[before]);
         let is_type = token.text == "whisker" && before.is_some_and(|before| before.is(":"));
         let Some(known) = keyword(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
-        // `always when` and `else if` are one statement.
-        if before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
+        // `always when` and `else if` are one statement, and `-> exit name` is a target.
+        if before.is_some_and(|before| ["always", "else", "->"].contains(&before.text)) {
             return;
         }
         if token.text == "if" && before.is_some_and(|before| is_before_expression(before.text)) {
@@ -123,6 +128,16 @@ impl<'t> Declared<'t> {
             "type" => SymbolKind::Enumeration,
             "law" => SymbolKind::Law,
             "state" => SymbolKind::State,
+            "behaviour" => SymbolKind::Behaviour,
+            "monitor" => SymbolKind::Monitor,
+            "exit" => SymbolKind::Exit,
+            // The names of an exit's values.
+            "on" => {
+                if let Some(owner) = self.frames.last().and_then(|frame| frame.owner) {
+                    self.received(tokens, index + 2, owner);
+                }
+                return;
+            }
             "var" => SymbolKind::Memory,
             "whisker" => SymbolKind::Whisker,
             "contour" => SymbolKind::Contour,
@@ -134,7 +149,12 @@ impl<'t> Declared<'t> {
         while tokens.get(name).is_some_and(|token| token.kind == TokenKind::Name) {
             let declared = self.declare(tokens, name, token.start, kind);
             match kind {
-                SymbolKind::Law | SymbolKind::State | SymbolKind::Derived => self.arguments(tokens, name + 1, declared),
+                SymbolKind::Law
+                | SymbolKind::State
+                | SymbolKind::Behaviour
+                | SymbolKind::Monitor
+                | SymbolKind::Exit
+                | SymbolKind::Derived => self.arguments(tokens, name + 1, declared),
                 SymbolKind::Parameter => self.symbols[declared].r#type = parameter_type(&tokens[name..]),
                 SymbolKind::Enumeration => self.choices(tokens, name + 1, declared),
                 _ => {}
@@ -241,6 +261,29 @@ impl<'t> Declared<'t> {
         }
     }
 
+    /// Reads `(name, …)` after `on exit`.
+    fn received(&mut self, tokens: &[Token<'t>], open: usize, owner: usize) {
+        let names = tokens.get(open + 1..).unwrap_or_default().iter();
+        let names = names.take_while(|token| token.kind == TokenKind::Name || token.is(","));
+        let is_list = tokens.get(open).is_some_and(|token| token.is("("));
+        for name in names.filter(|token| is_list && token.kind == TokenKind::Name) {
+            let (index, span) = (self.symbols.len(), span_of(*name));
+            self.symbols.push(Symbol {
+                name: name.text.to_owned(),
+                kind: SymbolKind::Argument,
+                span,
+                whole: span,
+                arguments: Vec::new(),
+                owner: Some(owner),
+                visible: span,
+                r#type: None,
+            });
+            if let Some(frame) = self.frame() {
+                frame.pending.push(index);
+            }
+        }
+    }
+
     fn open(&mut self, tokens: &[Token<'t>]) {
         let Some(frame) = self.frame() else { return };
         let head = frame.statement.and_then(|statement| tokens.get(statement)).map(|token| token.text);
@@ -267,8 +310,8 @@ impl<'t> Declared<'t> {
             let symbol = &mut self.symbols[index];
             match symbol.kind {
                 SymbolKind::Argument => symbol.visible = Span::new(symbol.whole.end, end),
-                SymbolKind::Memory => {
-                    // Memory is visible in the whole state, also above its declaration.
+                SymbolKind::Memory | SymbolKind::Exit => {
+                    // Memory is visible in the whole state, also above its declaration. So are the exits of a behaviour.
                     symbol.visible = Span::new(start.unwrap_or(symbol.span.start), end);
                     symbol.whole.end = end;
                 }
@@ -282,6 +325,14 @@ impl<'t> Declared<'t> {
             }
         }
     }
+}
+
+/// The behaviour that contains a symbol.
+pub(super) fn behaviour_around(symbols: &[Symbol], symbol: usize) -> Option<usize> {
+    let owner = |&symbol: &usize| symbols.get(symbol).and_then(|symbol| symbol.owner);
+    // An owner precedes what it contains.
+    let around = std::iter::successors(Some(symbol), owner).skip(1).take(symbols.len());
+    around.into_iter().find(|&around| symbols.get(around).is_some_and(|symbol| symbol.kind == SymbolKind::Behaviour))
 }
 
 pub(super) fn span_of(token: Token<'_>) -> Span {

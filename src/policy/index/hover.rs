@@ -89,7 +89,7 @@ impl Index {
     /// The laws, derived values and enumerations of a file.
     fn explain_file(&self, part: usize) -> String {
         let offered = exports(&self.source, part);
-        let heads: Vec<String> = offered.iter().map(|(symbol, _)| self.head(symbol)).collect();
+        let heads: Vec<String> = offered.iter().map(|symbol| self.head(symbol)).collect();
         let name = self.source.part_name(part);
         let about = heading(self.source.slice(self.source.part_span(part)));
         paragraphs(&[format!("`{name}`"), about, code(&heads.join("\n"))])

@@ -83,47 +83,55 @@ fn named(token: Token<'_>) -> Name {
 pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<Symbol>, own: usize) {
     let Some(part) = import.part(source) else { return };
     let everywhere = source.part_span(0);
-    for (symbol, parts) in exports(source, part) {
+    let declared = declared(source, part);
+    // The index of each declared symbol among all.
+    let mut places: Vec<Option<usize>> = Vec::with_capacity(declared.len());
+    for symbol in declared {
         let is_chosen =
-            import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
-        if is_chosen && symbols[own..].iter().all(|known| known.span != symbol.span) {
-            let owner = symbols.len();
-            symbols.push(Symbol { visible: everywhere, ..symbol });
-            // They are known only through their owner.
-            let only_there = |part: &Symbol| Span::new(part.span.start, part.span.start);
-            symbols.extend(parts.into_iter().map(|part| Symbol {
-                owner: Some(owner),
-                visible: only_there(&part),
-                ..part
-            }));
-        }
+            || import.names.as_ref().is_none_or(|names| names.iter().any(|&name| source.slice(name) == symbol.name));
+        let owner = symbol.owner.and_then(|owner| places.get(owner).copied().flatten());
+        // Parts of a symbol, such as the exits of a behaviour, are known only together with it.
+        let visible = if is_export(&symbol) { everywhere } else { Span::new(0, 0) };
+        use SymbolKind::{Argument, Choice, Exit, Memory, State};
+        let is_inner = matches!(symbol.kind, Choice | Argument | State | Exit | Memory);
+        let is_wanted = if is_export(&symbol) { is_chosen() } else { is_inner && owner.is_some() };
+        let known = symbols[own..].iter().position(|known| known.span == symbol.span).map(|index| own + index);
+        places.push(match known {
+            None if is_wanted => {
+                symbols.push(Symbol { owner, visible, ..symbol });
+                Some(symbols.len() - 1)
+            }
+            known => known,
+        });
     }
 }
 
-/// The exported symbols of a part of a source: its laws, derived values and enumerations, each with its arguments or
-/// values.
-pub(super) fn exports(source: &Source, part: usize) -> Vec<(Symbol, Vec<Symbol>)> {
+/// True if other files can use a symbol of a file.
+fn is_export(symbol: &Symbol) -> bool {
+    use SymbolKind::{Behaviour, Derived, Enumeration, Law, Monitor};
+    matches!(symbol.kind, Law | Derived | Enumeration | Behaviour | Monitor) && symbol.owner.is_none()
+}
+
+/// The exported symbols of a part of a source: its laws, derived values, enumerations, behaviours and monitors.
+pub(super) fn exports(source: &Source, part: usize) -> Vec<Symbol> {
+    declared(source, part).into_iter().filter(is_export).collect()
+}
+
+/// All symbols of a part of a source.
+fn declared(source: &Source, part: usize) -> Vec<Symbol> {
     let span = source.part_span(part);
     let text = source.slice(span);
-    let symbols = declare(text, &code_tokens(text), true).finish(text);
+    let symbols = declare(text, &code_tokens(text), true).finish(text).into_iter();
     let moved = |inner: Span| Span::new(span.start + inner.start, span.start + inner.end);
-    let moved = |symbol: &Symbol| {
-        let r#type = symbol.r#type.map(|r#type| match r#type {
-            Type::Choice(choices) => Type::Choice(Choices { declared: moved(choices.declared), ..choices }),
-            other => other,
-        });
-        Symbol { span: moved(symbol.span), whole: moved(symbol.whole), r#type, ..symbol.clone() }
+    let moved_type = |r#type| match r#type {
+        Type::Choice(choices) => Type::Choice(Choices { declared: moved(choices.declared), ..choices }),
+        other => other,
     };
-    let is_own =
-        |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Law | SymbolKind::Derived | SymbolKind::Enumeration);
-    let own = symbols.iter().enumerate().filter(|(_, symbol)| is_own(symbol));
-    let with_parts = own.map(|(index, symbol)| {
-        let parts = symbols
-            .iter()
-            .filter(|part| matches!(part.kind, SymbolKind::Choice | SymbolKind::Argument) && part.owner == Some(index));
-        (moved(symbol), parts.map(moved).collect())
-    });
-    with_parts.collect()
+    let moved = |symbol: Symbol| {
+        let (span, whole, r#type) = (moved(symbol.span), moved(symbol.whole), symbol.r#type.map(moved_type));
+        Symbol { span, whole, r#type, ..symbol }
+    };
+    symbols.map(moved).collect()
 }
 
 /// The description of a file in the comment at its beginning.

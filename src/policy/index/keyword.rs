@@ -89,19 +89,19 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 68] = [
+pub(super) const KEYWORDS: [Keyword; 72] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
         FILE,
         "library ${1:name}",
-        "Begins a library, a file of laws, derived values and enumerations for other files, and names it.",
+        "Begins a library, a file of laws, derived values, enumerations, behaviours and monitors for other files, and names it.",
     ),
     entry(
         "use",
         ITEM,
         "use ${1:std.swipe}",
-        "Imports laws, derived values and enumerations of another file: all, or only those in parentheses.",
+        "Imports laws, derived values, enumerations and behaviours of another file: all, or only those in parentheses.",
     ),
     entry("whisker", ITEM, "whisker ${1:name}", "Binds whiskers of the rig by name."),
     entry(
@@ -154,6 +154,24 @@ pub(super) const KEYWORDS: [Keyword; 68] = [
         ITEM_OR_STATE,
         "state ${1:Name} {\n  ${0}\n}",
         "A state with its statements, transitions and inner states.",
+    ),
+    entry(
+        "behaviour",
+        ITEM,
+        "behaviour ${1:name}(${2:w: whisker}) {\n  exit ${3:lost}\n  ${0}\n}",
+        "A state machine with arguments and exits, the content of a state: `state Name is name(r0)`.",
+    ),
+    entry(
+        "monitor",
+        ITEM,
+        "monitor ${1:name} {\n  var ${2:seen} = ${3:0}\n  ${0}\n}",
+        "Memory with statements that run first in every tick. States read `name.seen`. With arguments, `monitor other is name(r0)` uses it.",
+    ),
+    entry(
+        "is",
+        INSIDE,
+        "is ${1:behaviour}",
+        "The behaviour that is the content of the state, or the content of the monitor, with the values of its arguments.",
     ),
     entry(
         "always",
@@ -215,7 +233,18 @@ pub(super) const KEYWORDS: [Keyword; 68] = [
         "entry {\n  ${0}\n}",
         "Statements that are executed when the state is entered, after its memory is set.",
     ),
-    entry("exit", STATE, "exit {\n  ${0}\n}", "Statements that are executed when the state is left."),
+    entry(
+        "exit",
+        STATE,
+        "exit {\n  ${0}\n}",
+        "Statements that are executed when the state is left. In a behaviour, `exit name(value: type)` declares an exit, and `-> exit name(value)` leads to it.",
+    ),
+    entry(
+        "on",
+        STATE,
+        "on ${1:exit} -> ${2:Target}",
+        "The target of an exit of the behaviour that the state uses. Names in parentheses are those of the exit's values.",
+    ),
     entry(
         "set",
         &[Position::Item, Position::State, Position::Statement, Position::Test],

@@ -7,6 +7,7 @@ use vibrissa_runtime::machine::NESTING_LIMIT;
 use super::Index;
 use super::candidate::{Candidate, of_keyword};
 use super::context::Context;
+use super::declare::behaviour_around;
 use super::keyword::{Position, keywords_at};
 use super::symbol::SymbolKind;
 
@@ -15,13 +16,41 @@ impl Index {
     pub(super) fn targets(&self, context: &Context) -> Vec<Candidate> {
         let can_resume = !self.nesting().is_empty();
         let words = keywords_at(Position::Target).filter(|word| can_resume || word.text != "resume");
-        self.states().map(|state| self.target(state, context)).chain(words.map(of_keyword)).collect()
+        let states = self.states_around(context).into_iter().map(|state| self.target(state, context));
+        let exits = self.known(context).filter(|symbol| symbol.kind == SymbolKind::Exit).map(|exit| {
+            let candidate = self.symbol(exit);
+            let (label, snippet) = (format!("exit {}", candidate.label), format!("exit {}", candidate.snippet));
+            Candidate { label, snippet, ..candidate }
+        });
+        states.chain(exits).chain(words.map(of_keyword)).collect()
     }
 
     /// Candidates after `resume`.
     pub(super) fn resumable(&self, context: &Context) -> Vec<Candidate> {
         let nesting = self.nesting();
-        self.states().filter(|state| nesting.contains(state)).map(|state| self.target(state, context)).collect()
+        let states = self.states_around(context).into_iter().filter(|state| nesting.contains(state));
+        states.map(|state| self.target(state, context)).collect()
+    }
+
+    /// The exits of the behaviour that the state around the position uses.
+    pub(super) fn connected(&self, context: &Context) -> Vec<Candidate> {
+        let used = self.state_around(context).and_then(|state| self.resolved.behaviours.get(&state).copied());
+        let of_used = |&exit: &usize| {
+            self.symbols[exit].kind == SymbolKind::Exit && behaviour_around(&self.symbols, exit) == used
+        };
+        let exits = (0..self.symbols.len()).filter(|_| used.is_some()).filter(of_used);
+        exits.map(|exit| self.symbol(&self.symbols[exit])).collect()
+    }
+
+    /// The states that transitions around the position can have as targets: those of the same behaviour, or of the
+    /// machine.
+    fn states_around(&self, context: &Context) -> Vec<usize> {
+        let around = self.state_around(context);
+        let behaviour = around.and_then(|around| match self.symbols[around].kind {
+            SymbolKind::Behaviour => Some(around),
+            _ => behaviour_around(&self.symbols, around),
+        });
+        self.states().filter(|&state| behaviour_around(&self.symbols, state) == behaviour).collect()
     }
 
     /// Candidates after `initial`: direct inner states in a state, and outermost states outside.
@@ -79,7 +108,7 @@ impl Index {
 
     /// The innermost state around the position.
     fn state_around(&self, context: &Context) -> Option<usize> {
-        self.states().find(|&state| Some(self.symbols[state].span) == context.state)
+        (0..self.own).find(|&state| Some(self.symbols[state].span) == context.state)
     }
 
     /// A state and its ancestors, the innermost first. The number is limited to that of a valid policy.

@@ -27,6 +27,12 @@ pub enum SymbolKind {
     Law,
     /// A state.
     State,
+    /// A behaviour.
+    Behaviour,
+    /// A monitor.
+    Monitor,
+    /// An exit of a behaviour.
+    Exit,
     /// An argument of a law, a derived value or a state.
     Argument,
     /// A named value of a statement.
@@ -38,12 +44,15 @@ pub enum SymbolKind {
 impl SymbolKind {
     /// True if the whole policy knows the name.
     pub(super) fn is_item(self) -> bool {
-        !matches!(self, Self::Argument | Self::Local | Self::Memory | Self::Choice)
+        !matches!(self, Self::Argument | Self::Local | Self::Memory | Self::Choice | Self::Exit)
     }
 
     /// True if the name means a value.
     pub(super) fn is_value(self) -> bool {
-        !matches!(self, Self::Machine | Self::Law | Self::State | Self::Enumeration | Self::Choice)
+        !matches!(
+            self,
+            Self::Machine | Self::Law | Self::State | Self::Enumeration | Self::Choice | Self::Behaviour | Self::Exit
+        )
     }
 }
 

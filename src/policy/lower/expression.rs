@@ -7,7 +7,7 @@ use crate::policy::suggestion::did_you_mean;
 use crate::policy::test::RunFigure;
 use crate::policy::types::{Type, Value};
 use crate::policy::unit::{unit_hint, units_of};
-use vibrissa_runtime::machine::Op;
+use vibrissa_runtime::machine::{BodyScalar, Op, Register};
 use vibrissa_runtime::units::{Dimension, parse_unit};
 
 use super::Compiler;
@@ -192,6 +192,13 @@ impl<'f> Compiler<'f> {
             return self.choice_value(item, name);
         }
         let value = self.expression(scope, owner)?;
+        if let Type::Monitor(monitor) = value.r#type {
+            if values.is_some() {
+                self.report_call(format!("`{}` takes no values", name.text), name.span);
+                return None;
+            }
+            return self.monitor_member(monitor, name);
+        }
         let members = builtins::members(value.r#type);
         let Some(&member) = members.iter().find(|member| member.name == name.text) else {
             let message = format!("{} has no `{}`", self.phrase(value.r#type), name.text);
@@ -260,6 +267,8 @@ impl<'f> Compiler<'f> {
             (MemberSource::Vector(quantity), ..) => self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity }),
             (MemberSource::Body(quantity), ..) => self.code.scalar(|to| Op::Body { to, quantity }),
             (MemberSource::BodyPosition, ..) => self.code.vector(|to| Op::BodyPosition { to }),
+            (MemberSource::Nose, ..) => self.end_of_body(false),
+            (MemberSource::Tail, ..) => self.end_of_body(true),
             (MemberSource::Run(figure), ..) => self.figure(figure, name.span),
         };
         Some(Value { r#type: member.r#type, register })
@@ -292,6 +301,23 @@ impl<'f> Compiler<'f> {
             self.code.push(Op::Select { to, condition, a, b });
         }
         Some(Value { r#type, register: to })
+    }
+
+    /// The middle of the nose or of the tail: the position of the body, moved along its heading.
+    fn end_of_body(&mut self, is_tail: bool) -> Register {
+        let scalar = |compiler: &mut Self, quantity| compiler.code.scalar(|to| Op::Body { to, quantity });
+        let nose = scalar(self, BodyScalar::NoseReach);
+        let reach = if is_tail {
+            let length = scalar(self, BodyScalar::Length);
+            self.code.scalar(|to| Op::Subtract { to, a: nose, b: length })
+        } else {
+            nose
+        };
+        let heading = scalar(self, BodyScalar::Yaw);
+        let ahead = self.direction(heading);
+        let offset = self.code.vector(|to| Op::MultiplyVector { to, a: ahead, b: reach });
+        let position = self.code.vector(|to| Op::BodyPosition { to });
+        self.code.vector(|to| Op::AddVectors { to, a: position, b: offset })
     }
 
     fn norm(&mut self, scope: &Scope<'f>, inner: &'f Expression) -> Option<Value> {

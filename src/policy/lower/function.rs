@@ -128,7 +128,7 @@ impl<'f> Compiler<'f> {
     }
 
     /// The unit vector with the direction of an angle.
-    fn direction(&mut self, angle: u16) -> u16 {
+    pub(super) fn direction(&mut self, angle: u16) -> u16 {
         let to = self.code.allocate(2);
         self.code.push(Op::Cosine { to, a: angle });
         self.code.push(Op::Sine { to: to + 1, a: angle });

@@ -1,25 +1,44 @@
 //! The state hierarchy.
 
 use crate::policy::ast::State;
+use crate::policy::expand::{Expanded, Instance};
 
 /// The state hierarchy of a machine.
 #[derive(Debug, Default)]
 pub(super) struct Hierarchy<'f> {
-    /// In the order of the text, so an outer state precedes its inner states.
+    /// An outer state precedes its inner states.
     pub(super) states: &'f [State],
+    pub(super) instances: &'f [Instance],
     /// For every state, its direct inner states.
     inner: Vec<Vec<usize>>,
 }
 
 impl<'f> Hierarchy<'f> {
-    pub(super) fn new(states: &'f [State]) -> Self {
+    pub(super) fn new(expanded: &'f Expanded) -> Self {
+        let states = expanded.states.as_slice();
         let mut inner = vec![Vec::new(); states.len()];
         for (index, state) in states.iter().enumerate() {
             if let Some(parent) = state.parent {
                 inner[parent].push(index);
             }
         }
-        Self { states, inner }
+        Self { states, instances: &expanded.instances, inner }
+    }
+
+    /// The instance of the state `from`. The machine's own is 0.
+    pub(super) fn instance(&self, from: Option<usize>) -> usize {
+        from.and_then(|from| self.states.get(from)).map_or(0, |state| state.instance)
+    }
+
+    /// The file that contains the text of a state.
+    pub(super) fn file(&self, state: usize) -> usize {
+        self.instances[self.states[state].instance].file
+    }
+
+    /// The name of a state in the whole machine: `Following.Swiping`.
+    pub(super) fn path(&self, state: usize) -> String {
+        let state = &self.states[state];
+        format!("{}{}", self.instances[state.instance].prefix, state.name.text)
     }
 
     /// The direct inner states of a state.

@@ -8,18 +8,26 @@ use super::Compiler;
 use super::scope::{Meaning, Scope};
 
 impl<'f> Compiler<'f> {
-    /// Lowers the initialisation of the machine's memory. Returns the names that all states know, and the code.
-    pub(super) fn own_memory(&mut self, file: &'f File) -> (Scope<'f>, Block) {
+    /// Lowers the initialisation of the memory of the machine and of its monitors, and the statements of the monitors.
+    /// Returns the names that all states know, and both codes.
+    pub(super) fn own_memory(&mut self, file: &'f File) -> (Scope<'f>, Block, Block) {
         let mut scope = Scope::default();
         let start = self.code.here();
+        let mut monitors = file.monitors.iter().peekable();
         for (name, value) in &file.memory {
+            while let Some(monitor) = monitors.next_if(|monitor| monitor.name.span.start < name.span.start) {
+                self.start_monitor(&mut scope, monitor);
+            }
             let memory = self.expression(&scope, value).map(|value| self.copied(value));
             self.note_type(name, memory);
             self.check_size(name.span);
             // The check of item names has already refused duplicates.
             scope.insert(name, memory);
         }
-        (scope, self.code.since(start))
+        monitors.for_each(|monitor| self.start_monitor(&mut scope, monitor));
+        let (entry, start) = (self.code.since(start), self.code.here());
+        self.monitor_bodies(&scope);
+        (scope, entry, self.code.since(start))
     }
 
     /// A register for a state's memory with an initial value. The entry code sets it, and is generated last, when all

@@ -7,10 +7,12 @@ mod call;
 mod code;
 mod contour;
 mod enumeration;
+mod exit;
 mod expression;
 mod function;
 mod hierarchy;
 mod memory;
+mod monitor;
 mod names;
 mod needs;
 mod parameter;
@@ -33,6 +35,7 @@ use super::test::{FigureRegister, PolicyTest};
 use super::types::{DIMENSIONS, Type, Value, dimension};
 use code::Code;
 use hierarchy::Hierarchy;
+use monitor::Running;
 use names::Names;
 use scope::{Meaning, Scope};
 
@@ -117,6 +120,8 @@ struct StateEntry {
 struct Commandless {
     construct: &'static str,
     hint: &'static str,
+    /// True if `record` and `mark` are allowed.
+    allows_records: bool,
 }
 
 /// The state of the compiler during lowering.
@@ -131,8 +136,11 @@ struct Compiler<'f> {
     current_file: usize,
     /// The types of names, if they are requested.
     types: Option<Types>,
-    states: HashMap<&'f str, StateEntry>,
+    /// The states of each instance by their names.
+    states: HashMap<(usize, &'f str), StateEntry>,
     hierarchy: Hierarchy<'f>,
+    /// For each state, the names that it knows.
+    scopes: Vec<Scope<'f>>,
     /// Declarations of laws and derived values with errors.
     erroneous: HashSet<Span>,
     /// Laws and derived values that are being inlined.
@@ -143,6 +151,8 @@ struct Compiler<'f> {
     declaring: &'f [(Name, Expression)],
     /// The memory of the machine, of the current state and of its outer states.
     variables: Vec<&'f Name>,
+    /// The monitors of the machine.
+    running: Vec<Running<'f>>,
     /// Memory of stateful functions in the current state: the first register, and the number of registers.
     memories: Vec<(Register, u16)>,
     /// The figures that the current expectation reads. `None` outside of tests.
@@ -170,11 +180,13 @@ impl<'f> Compiler<'f> {
             types: None,
             states: HashMap::new(),
             hierarchy: Hierarchy::default(),
+            scopes: Vec::new(),
             erroneous: HashSet::new(),
             inlining: Vec::new(),
             state_body: &[],
             declaring: &[],
             variables: Vec::new(),
+            running: Vec::new(),
             memories: Vec::new(),
             figures: None,
             tests: Vec::new(),
@@ -187,7 +199,8 @@ impl<'f> Compiler<'f> {
     }
 
     fn report(&mut self, diagnostic: Diagnostic) {
-        if self.diagnostics.len() < FAULT_LIMIT {
+        // Copies of a behaviour have the same errors.
+        if self.diagnostics.len() < FAULT_LIMIT && !self.diagnostics.contains(&diagnostic) {
             self.diagnostics.push(diagnostic);
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Derived, Enumeration, File, Law, Name, Use};
+use crate::policy::ast::{Derived, Enumeration, File, Law, Monitor, Name, Use};
 use crate::policy::load::Files;
 use crate::policy::suggestion::did_you_mean;
 
@@ -25,9 +25,18 @@ pub(super) struct Names<'f> {
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
     pub(super) enumerations: HashMap<&'f str, &'f Enumeration>,
+    /// The names of monitors that use others.
+    pub(super) running: HashSet<&'f str>,
+    /// The monitors that others can use, each with the number of its file.
+    pub(super) monitors: HashMap<&'f str, (usize, &'f Monitor)>,
 }
 
 impl Names<'_> {
+    /// True if a name means a monitor.
+    pub(super) fn is_monitor(&self, name: &str) -> bool {
+        self.monitors.contains_key(name) || self.running.contains(name)
+    }
+
     /// Span of the declaration of an item that the whole file knows.
     pub(super) fn item(&self, name: &str) -> Option<Span> {
         self.items.get(name).copied().filter(|_| !self.memory.contains(name))
@@ -75,6 +84,8 @@ impl<'f> Compiler<'f> {
         let laws = file.laws.iter().map(|law| &law.name);
         let enumerations = file.enumerations.iter().map(|item| &item.name);
         let states = file.states.iter().map(|state| &state.name);
+        let behaviours = file.behaviours.iter().map(|behaviour| &behaviour.name);
+        let monitors = file.monitors.iter().map(|monitor| &monitor.name);
         let memory = file.memory.iter().map(|(name, _)| name);
         let contours = file.contours.iter().map(|contour| &contour.name);
         for name in file
@@ -86,6 +97,8 @@ impl<'f> Compiler<'f> {
             .chain(laws)
             .chain(enumerations)
             .chain(states)
+            .chain(behaviours)
+            .chain(monitors)
             .chain(memory)
         {
             if is_reserved(&name.text) {
@@ -99,6 +112,10 @@ impl<'f> Compiler<'f> {
         let names = self.names_mut();
         names.memory = file.memory.iter().map(|(name, _)| name.text.as_str()).collect();
         names.derived = file.derived.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
+        let contents = file.monitors.iter().filter(|item| item.used.is_none());
+        let running = file.monitors.iter().filter(|item| item.used.is_some());
+        names.running = running.map(|item| item.name.text.as_str()).collect();
+        names.monitors = contents.map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.enumerations = file.enumerations.iter().map(|item| (item.name.text.as_str(), item)).collect();
         for item in &file.enumerations {
@@ -132,11 +149,13 @@ impl<'f> Compiler<'f> {
                     let derived = other.derived.iter().find(|item| item.name.span == name.span);
                     let law = other.laws.iter().find(|item| item.name.span == name.span);
                     let enumeration = other.enumerations.iter().find(|item| item.name.span == name.span);
+                    let monitor = other.monitors.iter().find(|item| item.name.span == name.span);
                     let names = self.names_mut();
                     names.items.insert(text, name.span);
                     names.enumerations.extend(enumeration.map(|item| (text, item)));
                     names.derived.extend(derived.map(|item| (text, (number, item))));
                     names.laws.extend(law.map(|item| (text, (number, item))));
+                    names.monitors.extend(monitor.map(|item| (text, (number, item))));
                 }
             }
         }

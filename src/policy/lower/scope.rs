@@ -41,11 +41,6 @@ impl<'f> Scope<'f> {
         self.names.len()
     }
 
-    /// The names after the first `len`.
-    pub(super) fn since(&self, len: usize) -> Vec<(&'f Name, Meaning)> {
-        self.names[len..].to_vec()
-    }
-
     /// Removes the names after the first `len`.
     pub(super) fn truncate(&mut self, len: usize) {
         self.names.truncate(len);
@@ -112,7 +107,13 @@ impl<'f> Compiler<'f> {
             })
         } else if self.names().items.contains_key(text.as_str()) {
             // Every other named thing is a value.
-            diagnostic.hint(format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`"))
+            diagnostic.hint(if self.files.first().is_some_and(|names| names.is_monitor(text)) {
+                format!("`{text}` is a monitor; states and global transitions can read its memory, if it is used or has no arguments")
+            } else if self.hierarchy.states.iter().any(|state| state.name.text == *text) {
+                format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`")
+            } else {
+                format!("`{text}` is a behaviour; a state uses it: `state Name is {text}(\u{2026}) {{ \u{2026} }}`")
+            })
         } else if self.state_body.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text))
         {
             diagnostic.hint(format!(

@@ -34,6 +34,7 @@ impl<'f> Compiler<'f> {
             Statement::If { branches, otherwise } => self.conditional(scope, branches, otherwise),
             Statement::Do { law, values, span } => self.apply(scope, law, values, *span)?,
             Statement::Record(whisker) => {
+                self.allow_record(whisker.span)?;
                 let whisker = self.expect(scope, whisker, Type::Whisker)?.register;
                 self.code.push(Op::Record { whisker });
             }
@@ -47,6 +48,7 @@ impl<'f> Compiler<'f> {
     }
 
     fn record_position(&mut self, scope: &Scope<'f>, position: &'f Expression, contour: &Name) -> Option<()> {
+        self.allow_record(position.span)?;
         let position = self.expect(scope, position, Type::POSITION);
         let Some(&contour) = self.names().contours.get(contour.text.as_str()) else {
             let message = format!("there is no contour `{}`", contour.text);
@@ -61,6 +63,7 @@ impl<'f> Compiler<'f> {
     }
 
     fn mark(&mut self, scope: &Scope<'f>, name: &Name, whisker: &'f Expression) -> Option<()> {
+        self.allow_record(whisker.span)?;
         let whisker = self.expect(scope, whisker, Type::Whisker);
         let Some(mark) = Mark::ALL.into_iter().find(|mark| mark.name() == name.text) else {
             let message = format!("there is no mark `{}`", name.text);
@@ -93,20 +96,33 @@ impl<'f> Compiler<'f> {
 
     /// Emits a command, unless commands are not allowed here.
     fn command(&mut self, span: Span, op: Op) -> Option<()> {
-        if let Some(Commandless { construct, hint }) = self.commandless {
-            let message = format!("{construct} cannot give a command");
-            let diagnostic = match (self.outer_use, self.inlining.first()) {
-                // Other uses of the law may be valid, so the error is reported at this use.
-                (Some(used), Some(law)) => {
-                    Diagnostic::error("P0407", message, used, format!("`{}` gives one", law.text))
-                }
-                _ => Diagnostic::error("P0407", message, span, "a command"),
-            };
-            self.report(diagnostic.hint(hint));
-            return None;
+        if let Some(commandless) = self.commandless {
+            return self.refuse(commandless, span, ("cannot give a command", "gives one", "a command"));
         }
         self.code.push(op);
         Some(())
+    }
+
+    /// Refuses a record or a mark at `span` where it is not allowed.
+    fn allow_record(&mut self, span: Span) -> Option<()> {
+        match self.commandless.filter(|commandless| !commandless.allows_records) {
+            Some(commandless) => {
+                self.refuse(commandless, span, ("cannot record or mark", "does so", "is recorded or marked"))
+            }
+            None => Some(()),
+        }
+    }
+
+    /// Reports that a construct does not allow something: what it cannot do, what a law in it does, and what it is.
+    fn refuse(&mut self, within: Commandless, span: Span, (cannot, does, what): (&str, &str, &str)) -> Option<()> {
+        let message = format!("{} {cannot}", within.construct);
+        let diagnostic = match (self.outer_use, self.inlining.first()) {
+            // Other uses of the law may be valid, so the error is reported at this use.
+            (Some(used), Some(law)) => Diagnostic::error("P0407", message, used, format!("`{}` {does}", law.text)),
+            _ => Diagnostic::error("P0407", message, span, what),
+        };
+        self.report(diagnostic.hint(within.hint));
+        None
     }
 
     fn set(&mut self, scope: &Scope<'f>, name: &'f Name, value: &'f Expression) -> Option<()> {

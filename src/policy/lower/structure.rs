@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Argument, File, Guard, Name, State, Target, Transition};
+use crate::policy::expand::Expanded;
 use crate::policy::load::Files;
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
@@ -11,7 +12,7 @@ use vibrissa_runtime::machine::{self, Block, NESTING_LIMIT, Op, Program};
 use vibrissa_runtime::signal::MAX_WHISKERS;
 
 use super::hierarchy::Hierarchy;
-use super::scope::{Meaning, Scope};
+use super::scope::Scope;
 use super::{Commandless, Compiler, StateEntry};
 
 /// The targets that end a run. No state may have these names.
@@ -37,7 +38,13 @@ pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<ma
         }
         compiler.check_derived(file);
         compiler.check_laws(file);
+        compiler.check_monitors(file);
     }
+    for (number, behaviours) in files.behaviours.iter().enumerate() {
+        compiler.current_file = number;
+        behaviours.iter().for_each(|behaviour| compiler.check_behaviour(behaviour));
+    }
+    compiler.current_file = 0;
     parameters
 }
 
@@ -59,20 +66,19 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     // Laws and derived values come first and cannot access this memory. Their error messages mention it.
     compiler.variables.extend(file.memory.iter().map(|(name, _)| name));
     let parameters = items(compiler, files);
-    let (scope, entry) = compiler.own_memory(file);
+    let (scope, entry, monitors) = compiler.own_memory(file);
     let body = compiler.own_body(&scope, file);
     // The registers of all arguments must exist before any transition is lowered.
-    compiler.hierarchy = Hierarchy::new(&file.states);
-    let declared = compiler.declare(file, &scope);
+    compiler.declare(&files.machine, &scope);
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
     let fallback = compiler.failsafe(&scope, None, &file.failsafes);
-    let states = compiler.states(file, &scope, declared, &mut timers);
+    let states = compiler.lower_states(&mut timers);
     let initial = compiler.initial(file);
     let contact_estimators = compiler.contact_estimators(file);
     let (keypoints, contours) = compiler.contours(file);
     let needs = compiler.needs(file);
-    compiler.check_whisker_arguments(file);
+    compiler.check_whisker_arguments(file, &files.machine);
     compiler.tests(file, &parameters);
 
     report_size(compiler, file.name.span);
@@ -90,6 +96,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         // The optimiser adds code that is executed once per run.
         start: 0..0,
         entry,
+        monitors,
         body,
         always,
         fallback,
@@ -101,12 +108,12 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
 
 impl<'f> Compiler<'f> {
     /// Reports states with a whisker as argument if the machine has no whisker.
-    fn check_whisker_arguments(&mut self, file: &'f File) {
+    fn check_whisker_arguments(&mut self, file: &'f File, machine: &'f Expanded) {
         if !file.whiskers.is_empty() {
             return;
         }
         let arguments =
-            file.states.iter().flat_map(|state| state.arguments.iter().map(move |argument| (state, argument)));
+            machine.states.iter().flat_map(|state| state.arguments.iter().map(move |argument| (state, argument)));
         for (state, argument) in arguments.filter(|(_, argument)| argument.type_name.base.text == "whisker") {
             let message = format!("the state `{}` takes a whisker, but the policy binds none", state.name.text);
             let diagnostic = Diagnostic::error("P0412", message, argument.name.span, "no whisker to pass");
@@ -208,7 +215,7 @@ impl<'f> Compiler<'f> {
     /// Lowers the statements outside of all states.
     fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
         self.commandless =
-            Some(Commandless { construct: "the machine itself", hint: "move it to the statements of a state" });
+            Some(Commandless { construct: "the machine itself", hint: "move it to the statements of a state", allows_records: true });
         let start = self.code.here();
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
@@ -217,67 +224,80 @@ impl<'f> Compiler<'f> {
         body
     }
 
-    /// Declares all states, with registers for their arguments and memory.
-    ///
-    /// Returns the names that each state adds to those of its outer states and of `own`, the machine's names.
-    fn declare(&mut self, file: &'f File, own: &Scope<'f>) -> Vec<Vec<(&'f Name, Meaning)>> {
-        // Number of names in scope after each state's own names.
-        let mut ends: Vec<usize> = Vec::with_capacity(file.states.len());
-        let mut scope = own.clone();
-        let mut declared = Vec::with_capacity(file.states.len());
-        for (index, state) in file.states.iter().enumerate() {
+    /// Declares all states, with registers for their arguments and memory. `own` are the names of the machine, which the
+    /// copies of behaviours do not know.
+    fn declare(&mut self, expanded: &'f Expanded, own: &Scope<'f>) {
+        expanded.faults.iter().for_each(|fault| self.report(fault.clone()));
+        self.hierarchy = Hierarchy::new(expanded);
+        self.states.clear();
+        self.scopes.clear();
+        for (index, state) in expanded.states.iter().enumerate() {
             if self.hierarchy.outward(index).count() == NESTING_LIMIT + 1 {
                 let message = format!("states are nested more than {NESTING_LIMIT} deep");
                 let diagnostic = Diagnostic::error("P0410", message, state.name.span, "this one is too deep");
-                self.report(diagnostic.hint("use fewer levels of states"));
+                self.report(diagnostic.hint("use fewer levels of states; a behaviour is one level, too"));
             }
-            let start = state.parent.map_or(own.len(), |parent| ends[parent]);
-            scope.truncate(start);
-            self.check_defaults(&state.arguments);
-            self.bind_arguments(&mut scope, start, &state.arguments);
-            let names = state.arguments.iter().map(|argument| &argument.name.text);
-            let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
-            self.states.insert(&state.name.text, StateEntry { index, arguments });
-            // A state's own memory hides that of outer states in the whole state, also before its declaration.
-            self.declaring = &state.memory;
-            let mut known = scope.without(&state.memory);
-            for (name, value) in &state.memory {
-                let memory = self.remember(&known, value);
-                self.bind(&mut scope, start, name, memory);
-                known.insert(name, memory);
-            }
-            self.declaring = &[];
-            ends.push(scope.len());
-            declared.push(scope.since(start));
+            let mut scope = match state.parent {
+                _ if expanded.is_root(index) => Scope::default(),
+                Some(parent) => self.scopes[parent].clone(),
+                None => own.clone(),
+            };
+            self.within(self.hierarchy.file(index), |compiler| compiler.declare_state(index, state, &mut scope));
+            self.scopes.push(scope);
         }
-        declared
     }
 
-    /// Lowers all states. `declared` has the names that each state adds to those of its outer states and of `own`.
-    fn states(
-        &mut self,
-        file: &'f File,
-        own: &Scope<'f>,
-        declared: Vec<Vec<(&'f Name, Meaning)>>,
-        timers: &mut usize,
-    ) -> Vec<machine::State> {
-        let mut ends: Vec<(usize, usize)> = Vec::with_capacity(file.states.len());
-        let (mut scope, own) = (own.clone(), (own.len(), self.variables.len()));
-        let states = file.states.iter().zip(declared).enumerate();
-        let states = states.map(|(index, (state, names))| {
-            let (start, variables) = state.parent.map_or(own, |parent| ends[parent]);
-            scope.truncate(start);
-            self.variables.truncate(variables);
-            for (name, meaning) in names {
-                scope.insert(name, meaning);
-            }
+    fn declare_state(&mut self, index: usize, state: &'f State, scope: &mut Scope<'f>) {
+        let start = scope.len();
+        self.check_defaults(&state.arguments);
+        self.bind_arguments(scope, start, &state.arguments);
+        let names = state.arguments.iter().map(|argument| &argument.name.text);
+        let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
+        self.states.insert((state.instance, &state.name.text), StateEntry { index, arguments });
+        // A state's own memory hides that of outer states in the whole state, also before its declaration.
+        self.declaring = &state.memory;
+        let mut known = scope.without(&state.memory);
+        for (name, value) in &state.memory {
+            let memory = self.remember(&known, value);
+            self.bind(scope, start, name, memory);
+            known.insert(name, memory);
+        }
+        self.declaring = &[];
+    }
+
+    /// Lowers all declared states.
+    fn lower_states(&mut self, timers: &mut usize) -> Vec<machine::State> {
+        // The memory that each state can set.
+        let own = std::mem::take(&mut self.variables);
+        let mut variables: Vec<Vec<&'f Name>> = Vec::with_capacity(self.hierarchy.states.len());
+        let mut lowered = Vec::with_capacity(self.hierarchy.states.len());
+        for (index, state) in self.hierarchy.states.iter().enumerate() {
+            self.variables = match state.parent {
+                Some(parent) if self.hierarchy.states[parent].instance != state.instance => Vec::new(),
+                Some(parent) => variables[parent].clone(),
+                None => own.clone(),
+            };
             self.variables.extend(state.memory.iter().map(|(name, _)| name));
-            ends.push((scope.len(), self.variables.len()));
-            self.state(index, state, &mut scope, timers)
-        });
-        let states = states.collect();
-        self.variables.truncate(own.1);
-        states
+            variables.push(self.variables.clone());
+            let mut scope = self.scopes[index].clone();
+            lowered.push(self.within(self.hierarchy.file(index), |compiler| {
+                compiler.connections(index, state);
+                compiler.state(index, state, &mut scope, timers)
+            }));
+        }
+        self.variables = own;
+        lowered
+    }
+
+    /// Checks a behaviour alone, with unknown arguments, and discards the code.
+    fn check_behaviour(&mut self, behaviour: &'f Expanded) {
+        let mark = self.code.mark();
+        let variables = std::mem::take(&mut self.variables);
+        self.declare(behaviour, &Scope::default());
+        self.lower_states(&mut 0);
+        self.variables = variables;
+        self.check_size(behaviour.instances[0].name.span);
+        self.code.rewind(mark);
     }
 
     fn state(&mut self, index: usize, state: &'f State, scope: &mut Scope<'f>, timers: &mut usize) -> machine::State {
@@ -291,20 +311,20 @@ impl<'f> Compiler<'f> {
         let body = self.code.since(start);
         let initial = self.inner_initial(scope, index, state);
 
-        self.commandless = Some(Commandless { construct: "leaving a state", hint: COMMAND_ADVICE });
+        self.commandless = Some(Commandless { construct: "leaving a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
         let entry = self.entry(scope, state);
         self.commandless = None;
         self.check_size(state.name.span);
-        let name = Arc::from(state.name.text.as_str());
+        let name = Arc::from(self.hierarchy.path(index));
         machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, fallback }
     }
 
     /// Lowers the entry of a state.
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
-        self.commandless = Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE });
+        self.commandless = Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
         self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {

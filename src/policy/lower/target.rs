@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, File, Name, State, Step, Target};
+use crate::policy::expand::Instance;
 use crate::policy::foreign_syntax::target_advice;
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::Value;
@@ -23,6 +24,20 @@ impl<'f> Compiler<'f> {
         &mut self,
         scope: &Scope<'f>,
         from: Option<usize>,
+        target: &'f Target,
+    ) -> Option<machine::Target> {
+        if target.is_exit {
+            return self.exit(scope, from, target);
+        }
+        self.target_in(scope, (self.hierarchy.instance(from), from), target)
+    }
+
+    /// Lowers a target whose names are those of an instance. The transition belongs to the state `from`, which may be in a
+    /// behaviour that a state of the instance uses.
+    pub(super) fn target_in(
+        &mut self,
+        scope: &Scope<'f>,
+        (instance, from): (usize, Option<usize>),
         target: &'f Target,
     ) -> Option<machine::Target> {
         let end = [(FAILURE, "what went wrong"), (SUCCESS, "what was done")];
@@ -58,8 +73,8 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic.hint(format!("write `{name}(\"{example}\")` alone")));
             return None;
         }
-        let Some(StateEntry { index: state, arguments }) = self.states.get(target.name.text.as_str()).cloned() else {
-            let diagnostic = self.unknown_state(&target.name);
+        let Some(StateEntry { index: state, arguments }) = self.entry_of(instance, &target.name) else {
+            let diagnostic = self.unknown_state(instance, &target.name);
             self.report(match &target.text {
                 Some(text) => diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)),
                 None => diagnostic,
@@ -84,7 +99,7 @@ impl<'f> Compiler<'f> {
             return None;
         }
         let entered = self.hierarchy.entered(from, state);
-        let mut given = self.outer_values(target, state, &entered)?;
+        let mut given = self.outer_values(instance, target, state, &entered)?;
         let values = self.given(state, target.span, &target.values, &entered)?;
         given.push((values, arguments));
         let arguments = self.pass_arguments(scope, &given)?;
@@ -92,13 +107,19 @@ impl<'f> Compiler<'f> {
     }
 
     /// The values of the outer states that the transition enters. `entered` lists the entered states.
-    fn outer_values(&mut self, target: &'f Target, state: usize, entered: &[usize]) -> Option<Vec<ArgumentValues<'f>>> {
+    fn outer_values(
+        &mut self,
+        instance: usize,
+        target: &'f Target,
+        state: usize,
+        entered: &[usize],
+    ) -> Option<Vec<ArgumentValues<'f>>> {
         let path = self.path(entered);
         let mut steps: Vec<(usize, &Step)> = Vec::with_capacity(target.outer.len());
         let mut behind = 0;
         for step in &target.outer {
-            let Some(index) = self.states.get(step.name.text.as_str()).map(|entry| entry.index) else {
-                let diagnostic = self.unknown_state(&step.name);
+            let Some(index) = self.entry_of(instance, &step.name).map(|entry| entry.index) else {
+                let diagnostic = self.unknown_state(instance, &step.name);
                 self.report(diagnostic);
                 return None;
             };
@@ -128,8 +149,8 @@ impl<'f> Compiler<'f> {
         }
         let mut given = Vec::with_capacity(entered.len());
         for (level, &index) in entered[..entered.len() - 1].iter().enumerate() {
-            let outer = &self.hierarchy.states[index].name;
-            let arguments = self.states.get(outer.text.as_str())?.arguments.clone();
+            let State { name: outer, instance, .. } = &self.hierarchy.states[index];
+            let arguments = self.entry_of(*instance, outer)?.arguments;
             if let Some((_, step)) = steps.iter().find(|(at, _)| *at == level) {
                 let values = self.given(index, step.span, &step.values, entered)?;
                 given.push((values, arguments));
@@ -161,13 +182,34 @@ impl<'f> Compiler<'f> {
         usages.collect::<Vec<_>>().join(".")
     }
 
-    fn unknown_state(&self, name: &Name) -> Diagnostic {
+    /// The state with a name of an instance.
+    fn entry_of(&self, instance: usize, name: &Name) -> Option<StateEntry> {
+        self.states.get(&(instance, name.text.as_str())).cloned()
+    }
+
+    fn unknown_state(&self, instance: usize, name: &Name) -> Diagnostic {
         let message = format!("there is no state `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
-        let diagnostic = did_you_mean(diagnostic, &name.text, self.states.keys().copied().chain([FAILURE]));
-        match target_advice(&name.text) {
-            Some(advice) => diagnostic.hint(advice),
-            None => diagnostic,
+        let known = self.states.keys().filter(|(known, _)| *known == instance).map(|&(_, name)| name);
+        let diagnostic = did_you_mean(diagnostic, &name.text, known.chain([FAILURE]));
+        let inside = self.hierarchy.states.iter().find(|state| state.name.text == name.text);
+        let around = inside.map(|state| &self.hierarchy.instances[state.instance]);
+        match (target_advice(&name.text), around) {
+            (Some(advice), _) => diagnostic.hint(advice),
+            (None, Some(Instance { user: Some(user), name: behaviour, .. })) if instance == 0 => {
+                let user = &self.hierarchy.states[*user].name.text;
+                let (name, behaviour) = (&name.text, &behaviour.text);
+                diagnostic.hint(format!(
+                    "`{name}` is inside the behaviour `{behaviour}`, which begins in its own initial state: write `-> {user}`"
+                ))
+            }
+            (None, Some(Instance { user: None, .. })) if instance != 0 => {
+                let behaviour = &self.hierarchy.instances[instance].name.text;
+                diagnostic.hint(format!(
+                    "the behaviour `{behaviour}` does not know the states around it; declare an exit, and write `-> exit name`"
+                ))
+            }
+            _ => diagnostic,
         }
     }
 
@@ -231,10 +273,9 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic);
             return None;
         };
-        let Some(entry) = self.states.get(name.text.as_str()) else {
-            let message = format!("there is no state `{}`", name.text);
-            let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
-            self.report(did_you_mean(diagnostic, &name.text, self.states.keys().copied()));
+        let Some(entry) = self.entry_of(0, name) else {
+            let diagnostic = self.unknown_state(0, name);
+            self.report(diagnostic);
             return None;
         };
         let index = entry.index;
@@ -280,7 +321,10 @@ impl<'f> Compiler<'f> {
             }
         };
         let Step { name: begin, values, span } = step;
-        let Some(StateEntry { index: child, arguments }) = self.states.get(begin.text.as_str()).cloned() else {
+        // The content of a behaviour follows the state that uses it.
+        let place = if state.behaviour.is_some() { index + 1 } else { index };
+        let Some(StateEntry { index: child, arguments }) = self.entry_of(self.hierarchy.instance(Some(place)), begin)
+        else {
             let message = format!("there is no state `{}`", begin.text);
             let diagnostic = Diagnostic::error("P0201", message, begin.span, "unknown state");
             let diagnostic = did_you_mean(diagnostic, &begin.text, inner);

@@ -108,20 +108,33 @@ impl<'f> Compiler<'f> {
         name: &'f Name,
         values: Option<&'f [Expression]>,
     ) -> Option<Register> {
-        let Some([Expression { kind: Kind::Root { name: state, values: None }, span, .. }]) = values else {
+        let path = match values {
+            Some([value]) => path(value).map(|path| (path, value.span)),
+            _ => None,
+        };
+        let Some((state, span)) = path else {
             let message = format!("`{}` needs the name of one state", name.text);
             let diagnostic = Diagnostic::error("P0304", message, name.span, "no state is named");
             self.report(diagnostic.hint(format!("write `run.{}(Name)`", name.text)));
             return None;
         };
-        let Some(entry) = self.states.get(state.text.as_str()) else {
-            let message = format!("there is no state `{}`", state.text);
-            let diagnostic = Diagnostic::error("P0201", message, *span, "unknown state");
-            self.report(did_you_mean(diagnostic, &state.text, self.states.keys().copied()));
+        let paths: Vec<String> = (0..self.hierarchy.states.len()).map(|index| self.hierarchy.path(index)).collect();
+        let Some(index) = paths.iter().position(|known| *known == state) else {
+            let message = format!("there is no state `{state}`");
+            let diagnostic = Diagnostic::error("P0201", message, span, "unknown state");
+            self.report(did_you_mean(diagnostic, &state, paths.iter().map(String::as_str)));
             return None;
         };
-        let index = entry.index;
         Some(self.figure(figure(index), name.span))
+    }
+}
+
+/// The text of a state's name, or of names with dots: `Following.Swiping`.
+fn path(value: &Expression) -> Option<String> {
+    match &value.kind {
+        Kind::Root { name, values: None } => Some(name.text.clone()),
+        Kind::Member { owner, name, values: None } => Some(format!("{}.{}", path(owner)?, name.text)),
+        _ => None,
     }
 }
 

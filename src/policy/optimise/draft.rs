@@ -92,7 +92,7 @@ fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
     };
     let mut blocks = of_list(&program.always);
     blocks.extend(program.fallback.iter().map(of_target));
-    blocks.extend([&program.entry, &program.body].map(Block::clone));
+    blocks.extend([&program.entry, &program.monitors, &program.body].map(Block::clone));
     for state in &program.states {
         blocks.extend(of_list(&state.transitions));
         blocks.extend([&state.entry, &state.body, &state.exit].map(Block::clone));
@@ -120,7 +120,7 @@ fn blocks(program: &mut Program) -> Vec<&mut Block> {
     }
     let mut blocks: Vec<&mut Block> = of_list(&mut program.always).collect();
     blocks.extend(program.fallback.as_mut().and_then(of_target));
-    blocks.extend([&mut program.entry, &mut program.body]);
+    blocks.extend([&mut program.entry, &mut program.monitors, &mut program.body]);
     for state in &mut program.states {
         blocks.extend(of_list(&mut state.transitions));
         blocks.extend([&mut state.entry, &mut state.body, &mut state.exit]);

@@ -1,19 +1,35 @@
 //! States, inner states, and targets.
 
 use crate::diagnostic::Span;
-use crate::policy::ast::{Expression, Name, State, Step, Target};
+use crate::policy::ast::{Behaviour, Connection, Exit, Expression, Monitor, Name, State, Step, Target};
 use crate::policy::grammar::Rule;
 use crate::policy::parse_tree::Pair;
 
-use super::{Parsed, Reader, arguments, block, statement, text, transition, values};
+use super::{Parsed, Reader, arguments, block, internal, statement, text, transition, values};
 
 /// Adds a state and its inner states to `states`.
 pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
-    let (name, arguments) = (reader.name()?, arguments(reader)?);
+    let (name, given) = (reader.name()?, arguments(reader)?);
+    let behaviour = if reader.has(Rule::application) { Some(step(reader.take(Rule::application)?)?) } else { None };
     let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (initial, transitions, failsafes) = (Vec::new(), Vec::new(), Vec::new());
     let own = states.len();
-    states.push(State { name, parent, arguments, initial, memory, entry, exit, body, transitions, failsafes });
+    states.push(State {
+        name,
+        parent,
+        arguments: given,
+        initial,
+        memory,
+        entry,
+        exit,
+        body,
+        transitions,
+        failsafes,
+        behaviour,
+        connections: Vec::new(),
+        exits: Vec::new(),
+        instance: 0,
+    });
     while let Some(pair) = reader.rest() {
         if pair.as_rule() == Rule::state {
             self::state(&mut Reader::new(pair), Some(own), states)?;
@@ -26,11 +42,44 @@ pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut
             Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
             Rule::memory => state.memory.push(variable(&mut Reader::new(pair))?),
             Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
+            Rule::connection => state.connections.push(connection(&mut Reader::new(pair))?),
+            Rule::outlet => {
+                let mut reader = Reader::new(pair);
+                state.exits.push(Exit { name: reader.name()?, arguments: arguments(&mut reader)? });
+            }
             Rule::exit => state.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
             _ => state.body.push(statement(pair)?),
         }
     }
     Ok(())
+}
+
+/// A behaviour with its states.
+pub(super) fn behaviour(pair: Pair<'_>) -> Parsed<Behaviour> {
+    let mut states = Vec::new();
+    state(&mut Reader::new(pair), None, &mut states)?;
+    let name = states.first().map(|root| root.name.clone());
+    Ok(Behaviour { name: name.ok_or_else(|| internal(pair.span()))?, span: pair.span(), states })
+}
+
+/// A monitor, or the use of one.
+pub(super) fn monitor(reader: &mut Reader<'_>) -> Parsed<Monitor> {
+    let (name, given) = (reader.name()?, arguments(reader)?);
+    let used = if reader.has(Rule::application) { Some(step(reader.take(Rule::application)?)?) } else { None };
+    let mut monitor = Monitor { name, arguments: given, memory: Vec::new(), body: Vec::new(), used };
+    while let Some(pair) = reader.rest() {
+        match pair.as_rule() {
+            Rule::memory => monitor.memory.push(variable(&mut Reader::new(pair))?),
+            _ => monitor.body.push(statement(pair)?),
+        }
+    }
+    Ok(monitor)
+}
+
+fn connection(reader: &mut Reader<'_>) -> Parsed<Connection> {
+    let exit = reader.name()?;
+    let names = if reader.has(Rule::received) { Reader::new(reader.take(Rule::received)?).names()? } else { Vec::new() };
+    Ok(Connection { exit, names, target: target(reader.take(Rule::target)?)? })
 }
 
 /// `var name = value`
@@ -49,11 +98,15 @@ fn step(pair: Pair<'_>) -> Parsed<Step> {
 pub(super) fn target(pair: Pair<'_>) -> Parsed<Target> {
     let span = pair.span();
     let mut reader = Reader::new(pair);
+    let is_exit = reader.has(Rule::leave);
+    if is_exit {
+        reader.next()?;
+    }
     let resume = if reader.has(Rule::kw_resume) { Some(reader.next()?.span()) } else { None };
     let name = reader.name()?;
     if reader.has(Rule::text_argument) {
         let text = text(&mut Reader::new(reader.take(Rule::text_argument)?))?;
-        return Ok(Target { resume, outer: Vec::new(), name, text: Some(text), values: Vec::new(), span });
+        return Ok(Target { is_exit, resume, outer: Vec::new(), name, text: Some(text), values: Vec::new(), span });
     }
     let mut last = Step { span: name.span, name, values: Vec::new() };
     if reader.has(Rule::values) {
@@ -66,5 +119,5 @@ pub(super) fn target(pair: Pair<'_>) -> Parsed<Target> {
         outer.push(std::mem::replace(&mut last, step(reader.take(Rule::inner)?)?));
     }
     let Step { name, values, .. } = last;
-    Ok(Target { resume, outer, name, text: None, values, span })
+    Ok(Target { is_exit, resume, outer, name, text: None, values, span })
 }

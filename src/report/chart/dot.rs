@@ -26,15 +26,23 @@ pub fn chart_dot(chart: &Chart) -> String {
         if chart.has_success() {
             lines.push(&format!("{} [peripheries=2]", quoted(SUCCESS)));
         }
+        for (behaviour, name) in chart.ends() {
+            lines.push(&format!("{} [peripheries=2]", quoted(&exit(behaviour, name))));
+        }
         for (index, transition) in chart.transitions.iter().enumerate() {
             let from = match transition.origin {
                 Origin::AnyState => ANY_STATE,
                 Origin::State(state) => &chart.states[state].name,
             };
+            let exit;
             let to = match &transition.target {
                 Target::State { state, .. } => &chart.states[*state].name,
                 Target::Failure(_) => FAILURE,
                 Target::Success(_) => SUCCESS,
+                Target::Exit { behaviour, name, .. } => {
+                    exit = self::exit(behaviour, name);
+                    &exit
+                }
             };
             let label = label(&Label::new(chart, index));
             lines.push(&format!("{} -> {} [label=\"{label}\"]", quoted(from), quoted(to)));
@@ -63,6 +71,11 @@ fn states(lines: &mut Lines, chart: &Chart, parent: Option<usize>) {
             lines.push(&format!("{} -> {}{label}", quoted(&start), quoted(&state.name)));
         }
     }
+}
+
+/// The node of an exit. The blanks in it distinguish it from names of states.
+fn exit(behaviour: &str, name: &str) -> String {
+    format!("exit {name} of {behaviour}")
 }
 
 /// A label in left-aligned lines.

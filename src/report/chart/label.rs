@@ -92,7 +92,14 @@ fn listed(effects: &[String]) -> Vec<String> {
 
 /// A state's name and arguments.
 pub(super) fn signature(state: &State) -> String {
-    if state.arguments.is_empty() { state.name.clone() } else { format!("{}({})", state.name, arguments(state)) }
+    let own =
+        if state.arguments.is_empty() { state.name.clone() } else { format!("{}({})", state.name, arguments(state)) };
+    own + &behaviour(state).map_or_else(String::new, |behaviour| format!(" {behaviour}"))
+}
+
+/// The behaviour of a state, if it has one.
+pub(super) fn behaviour(state: &State) -> Option<String> {
+    state.behaviour.as_ref().map(|behaviour| format!("is {behaviour}"))
 }
 
 /// The number of inner states that are not shown. `None` if all are shown.
@@ -118,12 +125,26 @@ fn guard(transition: &Transition) -> String {
         Guard::When { condition, lasting: Some(time) } => format!("when {condition} for {time}"),
         Guard::After(time) => format!("after {time}"),
         Guard::Failsafe => "failsafe".to_owned(),
+        Guard::Exit(name) => format!("exit {name}"),
     }
 }
 
 fn effects(chart: &Chart, transition: &Transition) -> Vec<String> {
-    match &transition.target {
+    let exits = transition.exits.iter().map(|exit| called(&format!("exit {}", exit.name), &exit.values));
+    let mut effects: Vec<String> = exits.collect();
+    effects.extend(target_effects(chart, &transition.target));
+    effects
+}
+
+/// A name with its values.
+fn called(name: &str, values: &[String]) -> String {
+    if values.is_empty() { name.to_owned() } else { format!("{name}({})", values.join(", ")) }
+}
+
+fn target_effects(chart: &Chart, target: &Target) -> Vec<String> {
+    match target {
         Target::Failure(reason) | Target::Success(reason) => vec![format!("\"{reason}\"")],
+        Target::Exit { values, .. } => values.clone(),
         Target::State { state, outer, values, resume } => {
             let resumed = resume.then(|| "resume".to_owned()).into_iter();
             let outer = outer.iter().flat_map(|(outer, values)| given(chart, *outer, values));

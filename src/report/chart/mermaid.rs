@@ -21,15 +21,22 @@ pub fn chart_mermaid(chart: &Chart) -> String {
     if chart.has_success() {
         lines.push(&format!("state \"{SUCCESS}\" as success"));
     }
+    for (index, (behaviour, name)) in chart.ends().into_iter().enumerate() {
+        lines.push(&format!("state \"{}\" as e{index}", escaped(&format!("exit {name} of {behaviour}"))));
+    }
     for (index, transition) in chart.transitions.iter().enumerate() {
         let from = match transition.origin {
             Origin::AnyState => "any".to_owned(),
             Origin::State(state) => id(state),
         };
-        let to = match transition.target {
-            Target::State { state, .. } => id(state),
+        let to = match &transition.target {
+            Target::State { state, .. } => id(*state),
             Target::Failure(_) => "failure".to_owned(),
             Target::Success(_) => "success".to_owned(),
+            Target::Exit { behaviour, name, .. } => {
+                let end = chart.ends().iter().position(|end| *end == (behaviour, name));
+                format!("e{}", end.unwrap_or_default())
+            }
         };
         lines.push(&format!("{from} --> {to}: {}", escaped(&Label::new(chart, index).line())));
     }

@@ -127,6 +127,7 @@ fn symbols(chart: &Chart) -> Vec<Symbol> {
             }
         }
     }
+    symbols.extend((0..chart.ends().len()).map(Symbol::Exit));
     symbols.extend(chart.has_success().then_some(Symbol::Success));
     symbols.extend(chart.has_failure().then_some(Symbol::Failure));
     symbols
@@ -135,12 +136,18 @@ fn symbols(chart: &Chart) -> Vec<Symbol> {
 /// The symbols at both ends of a transition. Transitions between a state and its inner states are drawn inside the
 /// state.
 fn ends(chart: &Chart, transition: &Transition) -> (Symbol, Symbol) {
+    let from = match transition.origin {
+        Origin::AnyState => Symbol::AnyState(None),
+        Origin::State(from) => Symbol::State(from),
+    };
     match (transition.origin, &transition.target) {
+        (_, Target::Success(_)) => (from, Symbol::Success),
+        (_, Target::Failure(_)) => (from, Symbol::Failure),
+        (_, Target::Exit { behaviour, name, .. }) => {
+            let exit = chart.ends().iter().position(|end| *end == (behaviour, name));
+            (from, Symbol::Exit(exit.unwrap_or_default()))
+        }
         (Origin::AnyState, Target::State { state, .. }) => (Symbol::AnyState(None), Symbol::State(*state)),
-        (Origin::AnyState, Target::Success(_)) => (Symbol::AnyState(None), Symbol::Success),
-        (Origin::State(from), Target::Success(_)) => (Symbol::State(from), Symbol::Success),
-        (Origin::AnyState, Target::Failure(_)) => (Symbol::AnyState(None), Symbol::Failure),
-        (Origin::State(from), Target::Failure(_)) => (Symbol::State(from), Symbol::Failure),
         (Origin::State(from), &Target::State { state, .. }) => {
             let leads_in = from != state && chart.contains(from, state);
             let leads_out = from != state && chart.contains(state, from);

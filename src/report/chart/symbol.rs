@@ -2,7 +2,7 @@
 
 use svg::node::element::{Circle, Group, Rectangle};
 
-use super::label::{ANY_STATE, FAILURE, SUCCESS, arguments, hidden, signature};
+use super::label::{ANY_STATE, FAILURE, SUCCESS, arguments, behaviour, hidden, signature};
 use super::layout::{Position, Size};
 use crate::policy::chart::Chart;
 use crate::report::shade::shades;
@@ -35,6 +35,8 @@ pub(super) enum Symbol {
     Failure,
     /// The end in success.
     Success,
+    /// The exit of a behaviour with this index in [`Chart::ends`].
+    Exit(usize),
 }
 
 impl Symbol {
@@ -44,7 +46,7 @@ impl Symbol {
             Self::Start(container) | Self::AnyState(container) => container,
             Self::Anew(state) => Some(state),
             Self::State(state) => chart.states[state].parent,
-            Self::Failure | Self::Success => None,
+            Self::Failure | Self::Success | Self::Exit(_) => None,
         }
     }
 
@@ -101,7 +103,7 @@ impl Symbol {
                 group.add(frame(0.0).set("fill", "#ffffff").set("stroke-dasharray", "5 3"))
             }
             // The final state of a statechart has a double frame.
-            Self::Success => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5)),
+            Self::Success | Self::Exit(_) => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5)),
             Self::Failure => group.add(frame(0.0).set("fill", "#ffffff")).add(frame(3.5).set("fill", style::FAILURE)),
             Self::State(index) => {
                 group.add(frame(0.0).set("fill", shades(&chart.parents)[chart.states[index].index].fill()))
@@ -127,6 +129,7 @@ impl Symbol {
             Self::AnyState(_) => ANY_STATE,
             Self::Failure => FAILURE,
             Self::Success => SUCCESS,
+            Self::Exit(index) => chart.ends().get(index).map_or("", |&(_, name)| name),
         }
     }
 
@@ -136,9 +139,10 @@ impl Symbol {
             Self::State(index) => {
                 let state = &chart.states[index];
                 let arguments = (!state.arguments.is_empty() && !chart.is_overview).then(|| arguments(state));
-                arguments.into_iter().chain(hidden(state)).collect()
+                arguments.into_iter().chain(behaviour(state)).chain(hidden(state)).collect()
             }
             Self::Anew(_) => vec!["entered anew".to_owned()],
+            Self::Exit(index) => chart.ends().get(index).map(|(behaviour, _)| format!("exit of {behaviour}")).into_iter().collect(),
             _ => Vec::new(),
         }
     }

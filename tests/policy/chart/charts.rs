@@ -12,7 +12,16 @@ pub(crate) const HARD: &str = include_str!("../../fixtures/charts/hard.fsm");
 pub(crate) const NESTED: &str = include_str!("../../fixtures/charts/nested.fsm");
 
 pub(crate) fn state(name: &str, parent: Option<usize>, initial: bool) -> State {
-    State { index: 0, name: name.to_owned(), arguments: Vec::new(), parent, initial, values: Vec::new(), hidden: 0 }
+    State {
+        index: 0,
+        name: name.to_owned(),
+        arguments: Vec::new(),
+        behaviour: None,
+        parent,
+        initial,
+        values: Vec::new(),
+        hidden: 0,
+    }
 }
 
 pub(crate) fn into(state: usize, values: Vec<String>) -> Target {
@@ -48,8 +57,11 @@ pub(crate) fn charts() -> impl Strategy<Value = Chart> {
             };
             let transition = |(from, to, text, lasting): (usize, usize, String, Option<String>)| Transition {
                 number: None,
+                exits: Vec::new(),
                 origin: if from >= 12 { Origin::AnyState } else { Origin::State(from % count) },
-                target: if to >= 12 && from % 2 == 0 {
+                target: if to >= 12 && from % 3 == 0 {
+                    Target::Exit { behaviour: "b".to_owned(), name: format!("e{from}"), values: vec![text.clone()] }
+                } else if to >= 12 && from % 2 == 0 {
                     Target::Success(text.clone())
                 } else if to >= 12 {
                     Target::Failure(text.clone())

@@ -60,10 +60,11 @@ proptest! {
         let picture = chart_svg(&chart).unwrap();
         stands_clear(&picture);
         // One arrow for all transitions between two states, and one to each initial state.
-        let ends = |transition: &Transition| match transition.target {
-            Target::State { state, .. } => (format!("{:?}", transition.origin), Ok(state)),
-            Target::Failure(_) => (format!("{:?}", transition.origin), Err("failure")),
-            Target::Success(_) => (format!("{:?}", transition.origin), Err("success")),
+        let ends = |transition: &Transition| match &transition.target {
+            Target::State { state, .. } => (format!("{:?}", transition.origin), Ok(*state)),
+            Target::Failure(_) => (format!("{:?}", transition.origin), Err("failure".to_owned())),
+            Target::Success(_) => (format!("{:?}", transition.origin), Err("success".to_owned())),
+            Target::Exit { name, .. } => (format!("{:?}", transition.origin), Err(format!("exit {name}"))),
         };
         let arrows: BTreeSet<_> = chart.transitions.iter().map(ends).collect();
         let initial = chart.states.iter().filter(|state| state.initial).count();

@@ -50,6 +50,7 @@ fn hostile_texts_stay_texts() {
         transitions: vec![Transition {
             origin: Origin::State(0),
             number: None,
+            exits: Vec::new(),
             guard: Guard::When { condition, lasting: None },
             target: reason,
         }],

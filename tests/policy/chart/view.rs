@@ -1,7 +1,7 @@
 //! A part of a chart, or one with fewer levels.
 
 use proptest::prelude::*;
-use vibrissa::policy::chart::{Chart, Origin, Target, Transition, View};
+use vibrissa::policy::chart::{Chart, Guard, Origin, Target, Transition, View};
 use vibrissa::report::{chart_dot, chart_mermaid, chart_svg};
 
 use super::charts::{NESTED, chart_of, charts};
@@ -32,6 +32,7 @@ fn ends<'c>(chart: &'c Chart, transition: &Transition) -> (&'c str, &'c str) {
         Target::State { state, .. } => name(*state),
         Target::Failure(_) => "Failure",
         Target::Success(_) => "Success",
+        Target::Exit { name, .. } => name,
     };
     (from, to)
 }
@@ -97,6 +98,50 @@ fn is_of(chart: &Chart, transition: &Transition, name: &str) -> bool {
     matches!(transition.origin, Origin::State(state) if chart.contains(outer, state))
 }
 
+/// A behaviour in the middle of a machine, and one in it.
+const BEHAVIOURS: &str = "machine m whisker r0 initial A
+    behaviour outer(w: whisker) {
+      exit far(at: length)  exit lost
+      initial B
+      when time > 9 s -> exit lost
+      state B { stop  after 1 s -> C  when w.touching -> exit far(w.length) }
+      state C is inner { on done -> exit far(1 mm)  on stuck -> B }
+    }
+    behaviour inner { exit done  exit stuck  stop  after 1 s -> exit done  after 2 s -> exit stuck }
+    state A { stop  after 1 s -> Whole(r0) }
+    state Whole(w: whisker) is outer(w) { on far(at) -> Gone(at)  on lost -> A }
+    state Gone(how_far: length) { stop  after how_far / 1 m/s -> Whole(r0) }";
+
+#[test]
+fn a_behaviour_is_one_box_whose_arrows_have_the_names_of_exits() {
+    let whole = chart_of(BEHAVIOURS);
+    assert_eq!(names(&whole), ["A", "Whole", "Whole.B", "Whole.C", "Gone"]);
+    assert_eq!(whole.states[1].behaviour.as_deref(), Some("outer(w)"));
+    assert_eq!(whole.states[3].behaviour.as_deref(), Some("inner"));
+    let view = whole.view(depth(1)).unwrap();
+    assert_eq!(names(&view), ["A", "Whole", "Gone"]);
+    let exits: Vec<_> = view.transitions.iter().filter(|way| way.origin == Origin::State(1)).collect();
+    let told = |guard: &Guard| if let Guard::Exit(name) = guard { name.clone() } else { "when".to_owned() };
+    let told: Vec<_> = exits.iter().map(|way| (told(&way.guard), ends(&view, way).1)).collect();
+    // The transition of the behaviour itself is drawn as one of the state that uses it.
+    assert_eq!(told, [("when".to_owned(), "A"), ("far".to_owned(), "Gone")]);
+    see(&chart_svg(&whole).unwrap());
+    see(&chart_svg(&view).unwrap());
+}
+
+#[test]
+fn the_behaviours_of_a_library_are_drawn_with_their_exits_as_ends() {
+    let library = BEHAVIOURS.replace("machine m whisker r0 initial A", "library m").split("state A").next().unwrap().to_owned();
+    let chart = chart_of(&library);
+    assert_eq!(names(&chart), ["outer", "outer.B", "outer.C", "inner"]);
+    assert_eq!(chart.ends(), [("outer", "lost"), ("outer", "far"), ("inner", "done"), ("inner", "stuck")]);
+    let view = chart.view(of_state("inner")).unwrap();
+    assert_eq!((names(&view), view.ends()), (vec!["inner"], vec![("inner", "done"), ("inner", "stuck")]));
+    for text in [chart_svg(&chart).unwrap(), chart_mermaid(&chart), chart_dot(&chart)] {
+        assert!(["lost", "far", "done", "stuck"].iter().all(|exit| text.contains(exit)), "{text}");
+    }
+}
+
 #[test]
 fn a_state_that_there_is_none_of_is_told_with_one_that_is_near() {
     let chart = chart_of(NESTED);
@@ -128,10 +173,11 @@ proptest! {
                 Origin::AnyState => ("any state", None),
                 Origin::State(state) => (name(shown(state)), Some(shown(state))),
             };
-            let (to, is_within) = match way.target {
-                Target::State { state, .. } => (name(shown(state)), inner == Some(shown(state)) && shown(state) != state),
+            let (to, is_within) = match &way.target {
+                &Target::State { state, .. } => (name(shown(state)), inner == Some(shown(state)) && shown(state) != state),
                 Target::Failure(_) => ("Failure", false),
                 Target::Success(_) => ("Success", false),
+                Target::Exit { name, .. } => (name.as_str(), false),
             };
             let is_there = view.transitions.iter().any(|seen| ends(&view, seen) == (from, to) && seen.guard == way.guard);
             prop_assert!(is_there || is_within, "{} -> {}", from, to);

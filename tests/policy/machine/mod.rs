@@ -1,6 +1,8 @@
 //! The machine that a policy compiles to.
 
 pub(crate) mod artifact;
+mod behaviour;
 mod memory;
+mod monitor;
 mod nesting;
 mod tick;

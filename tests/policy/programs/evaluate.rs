@@ -57,6 +57,14 @@ impl Place {
     pub(crate) fn new(state: Option<usize>, part: &'static str) -> Self {
         Self { sees: state, stands_in: state, uses: Vec::new(), locals: Vec::new(), copies: Vec::new(), part }
     }
+
+    /// A monitor. What it begins with is computed apart from what it does later.
+    pub(crate) fn of_monitor(begins: bool, arguments: &Arguments, values: Vec<Value>) -> Self {
+        let mut place = Self::new(None, "a monitor");
+        place.uses.extend(begins.then_some(usize::MAX));
+        place.locals = arguments.iter().map(|(name, _)| name.clone()).zip(values).collect();
+        place
+    }
 }
 
 impl Interpreter<'_> {
@@ -97,6 +105,17 @@ impl Interpreter<'_> {
             }
             Expression::Body("yaw") => Value::Number(self.senses.body(BodyScalar::Yaw)),
             Expression::Body("blocked") => Value::Truth(self.senses.body(BodyScalar::Blocked) > 0.5),
+            Expression::Body("length") => Value::Number(self.senses.body(BodyScalar::Length)),
+            Expression::Body("width") => Value::Number(self.senses.body(BodyScalar::Width)),
+            Expression::Body("nose_width") => Value::Number(self.senses.body(BodyScalar::NoseWidth)),
+            Expression::Body("tail_width") => Value::Number(self.senses.body(BodyScalar::TailWidth)),
+            Expression::Body(end @ ("nose" | "tail")) => {
+                let [reach, length, yaw] =
+                    [BodyScalar::NoseReach, BodyScalar::Length, BodyScalar::Yaw].map(|part| self.senses.body(part));
+                let reach = if *end == "nose" { reach } else { reach - length };
+                let ahead = Vector2::new(math::cos(yaw), math::sin(yaw));
+                Value::Vector(self.senses.body_position() + ahead * reach)
+            }
             Expression::Body("shortfall") => Value::Number(self.senses.body(BodyScalar::Shortfall)),
             Expression::Body(_) => Value::Vector(self.senses.body_position()),
             Expression::Member(owner, member, values) => {
@@ -144,7 +163,8 @@ impl Interpreter<'_> {
             self.seen("what hides another", hides.then_some(place.part));
             return value;
         }
-        if let Some(value) = self.own.get(name) {
+        self.seen("what a monitor remembers", name.starts_with('M').then_some(place.part));
+        if let Some(value) = self.own.get(name.rsplit('.').next().unwrap()) {
             return *value;
         }
         if let Some((_, value)) = self.program.parameters.iter().find(|(known, _)| known == name) {

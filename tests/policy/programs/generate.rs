@@ -3,11 +3,11 @@
 use proptest::prelude::*;
 
 use super::grow::Grower;
-use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, State, Statement, Steer, Target, Type};
+use super::tree::{Arguments, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Statement, Steer, Target, Type};
 
 /// Programs that are well typed; some go round within a tick, which the compiler refuses.
 pub(crate) fn programs() -> impl Strategy<Value = Program> {
-    prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 52)
+    prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 56)
         .prop_map(|parts| Grower::new(&parts).grow_program())
 }
 
@@ -59,7 +59,12 @@ impl Grower<'_> {
             self.program.laws.push(Law { name: format!("l{index}"), arguments, commands, body });
         }
         self.next_part();
+        let own = self.scope.len();
         self.grow_own();
+        // Monitors do not know the machine's memory.
+        let memory = self.scope.split_off(own);
+        self.grow_monitors();
+        self.scope.extend(memory);
         let globals = self.scope.len();
         for index in 0..=states {
             self.next_part();
@@ -79,6 +84,37 @@ impl Grower<'_> {
             self.program.failsafe = Some(self.target(None));
         }
         self.program
+    }
+
+    /// What runs first in every tick.
+    fn grow_monitors(&mut self) {
+        for index in 0..self.pick(3) {
+            self.next_part();
+            let outside = self.scope.len();
+            let arguments = self.arguments(2);
+            let mut memory = Vec::new();
+            for number in 0..=self.pick(2) {
+                let r#type = self.one_of(&Type::ALL);
+                let (name, value) = (format!("k{index}_{number}"), self.expression(r#type, 2));
+                self.know(&name, r#type, true);
+                memory.push((name, r#type, value));
+            }
+            let mut body = Vec::new();
+            for _ in 0..self.pick(4) {
+                let (name, r#type, _) = self.one_of(&memory);
+                let set = Statement::Set(name, self.expression(r#type, 2));
+                let condition = (self.pick(2) == 1).then(|| self.expression(Type::Truth, 2));
+                body.push(condition.map_or(set.clone(), |condition| {
+                    Statement::If(vec![(condition, vec![set])], Vec::new())
+                }));
+            }
+            self.scope.truncate(outside);
+            let values = self.values(&arguments, 2);
+            for (name, r#type, _) in &memory {
+                self.know(&format!("M{index}.{name}"), *r#type, false);
+            }
+            self.program.monitors.push(Monitor { arguments, values, memory, body });
+        }
     }
 
     /// What the machine itself remembers and does.

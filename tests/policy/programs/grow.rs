@@ -174,6 +174,9 @@ impl<'g> Grower<'g> {
     fn sensed(&mut self, r#type: Type) -> Expression {
         match r#type {
             Type::Number => self.of_whisker(&["side", "sense"]),
+            Type::Length if self.pick(3) == 0 => {
+                Expression::Body(self.one_of(&["length", "width", "nose_width", "tail_width"]))
+            }
             Type::Length => self.of_whisker(&["length", "tip_spread"]),
             Type::Angle if self.pick(3) == 0 => Expression::Body("yaw"),
             Type::Angle => self.of_whisker(&["deflection", "yaw"]),
@@ -184,6 +187,7 @@ impl<'g> Grower<'g> {
             Type::Truth => self.of_whisker(&["touching"]),
             Type::Vector => member(self.expression(Type::Contour, 0), self.one_of(&["tangent", "normal"])),
             Type::Place if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "end"),
+            Type::Place if self.pick(3) == 0 => Expression::Body(self.one_of(&["nose", "tail"])),
             Type::Place => self.of_whisker(&["tip", "tip_base", "base"]),
             Type::Contour => self.of_whisker(&["contour"]),
             Type::Whisker | Type::Rate | Type::Frequency | Type::Choice => self.simple(r#type),

@@ -7,7 +7,7 @@ use vibrissa_runtime::machine::{Action, ActionPart, Cause, Failure, NonFinite, S
 
 use super::evaluate::{Place, Value};
 use super::filter::Filter;
-use super::tree::{Guard, Program, Rule, Target};
+use super::tree::{Guard, Monitor, Program, Rule, Target};
 use crate::common::Script;
 
 /// What a tick gave.
@@ -95,10 +95,24 @@ impl<'p> Interpreter<'p> {
 
     fn try_tick(&mut self, failsafe: &mut Option<(String, Cause)>) -> Result<Action, End> {
         if self.active.is_empty() {
+            for Monitor { arguments, values, memory, .. } in &self.program.monitors {
+                let values = self.values(values, &mut Place::of_monitor(true, &Vec::new(), Vec::new()));
+                let mut place = Place::of_monitor(true, arguments, values);
+                for (name, _, value) in memory {
+                    let value = self.value(value, &mut place);
+                    self.own.insert(name.clone(), value);
+                }
+            }
             for (name, _, value) in &self.program.memory {
                 let value = self.value(value, &mut Place::new(None, "a memory"));
                 self.own.insert(name.clone(), value);
             }
+        }
+        for Monitor { arguments, values, body, .. } in &self.program.monitors {
+            let values = self.values(values, &mut Place::of_monitor(false, &Vec::new(), Vec::new()));
+            self.run(body, &mut Place::of_monitor(false, arguments, values));
+        }
+        if self.active.is_empty() {
             self.enter(0, false);
         }
         let mut due = self.due(None);

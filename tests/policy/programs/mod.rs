@@ -9,3 +9,6 @@ mod side_by_side;
 mod text;
 mod tree;
 mod work;
+
+pub(crate) use generate::programs;
+pub(crate) use side_by_side::{machine, scripts};

@@ -33,7 +33,7 @@ prop_compose! {
 }
 
 /// Some ticks of three whiskers, most of which come late by some milliseconds.
-pub(super) fn scripts() -> impl Strategy<Value = Script> {
+pub(crate) fn scripts() -> impl Strategy<Value = Script> {
     let tick = (prop::collection::vec(feel(), 3), prop_oneof![Just(0), 0..30_u8]);
     prop::collection::vec(tick, 1..25).prop_map(|ticks| {
         let (feels, late): (Vec<_>, Vec<_>) = ticks.into_iter().unzip();
@@ -42,7 +42,7 @@ pub(super) fn scripts() -> impl Strategy<Value = Script> {
 }
 
 /// The machine of a program; `None` if the compiler has found that a tick of it can go round.
-pub(super) fn machine(text: &str) -> Option<machine::Program> {
+pub(crate) fn machine(text: &str) -> Option<machine::Program> {
     match compile(&Source::new("program.fsm", text)) {
         Ok(program) => Some(program),
         Err(faults) => {
@@ -127,7 +127,7 @@ proptest! {
 }
 
 /// What programs do, and as part of what.
-const DONE: [(&str, &[&str]); 41] = [
+const DONE: [(&str, &[&str]); 42] = [
     ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
     (
         "a unit with a factor",
@@ -157,6 +157,7 @@ const DONE: [(&str, &[&str]); 41] = [
     ("a named value", &["a body", "a law", "an if", "an entry", "a guard", "a target", "a memory"]),
     ("a default", &["a body", "a law", "an if", "an entry", "a target"]),
     ("let", &["a body", "a law", "an if", "an entry", "an exit"]),
+    ("what a monitor remembers", &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a memory", "a monitor"]),
     ("set", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of the machine's memory", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of what was named before", &["a body", "an if", "an entry", "an exit"]),

@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::tree::{Arguments, Derived, Expression, Guard, Law, Program, Rule, Statement, Steer, Target, Type, default};
+use super::tree::{
+    Arguments, Derived, Expression, Guard, Law, Monitor, Program, Rule, Statement, Steer, Target, Type, default,
+};
 
 impl std::fmt::Debug for Program {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -66,6 +68,15 @@ impl Program {
         for Law { name, arguments, body, .. } in &self.laws {
             let typed: Vec<String> = typed(arguments);
             writeln!(text, "law {name}({}) {{\n{}}}", typed.join(", "), block(body)).unwrap();
+        }
+        for (index, Monitor { arguments, values, memory, body }) in self.monitors.iter().enumerate() {
+            let name = if arguments.is_empty() { format!("M{index}") } else { format!("T{index}") };
+            let memory = memory.iter().map(|(name, _, value)| format!("var {name} = {}\n", value.text()));
+            let memory = memory.collect::<String>();
+            writeln!(text, "monitor {name}{} {{\n{memory}{}}}", self::arguments(arguments), block(body)).unwrap();
+            if !arguments.is_empty() {
+                writeln!(text, "monitor M{index} is {}", call(&name, values)).unwrap();
+            }
         }
         text
     }

@@ -161,6 +161,15 @@ pub(crate) struct State {
     pub(crate) failsafe: Option<Target>,
 }
 
+/// A monitor, and the values of its arguments where it is used.
+#[derive(Debug, Clone)]
+pub(crate) struct Monitor {
+    pub(crate) arguments: Arguments,
+    pub(crate) values: Vec<Expression>,
+    pub(crate) memory: Vec<(String, Type, Expression)>,
+    pub(crate) body: Vec<Statement>,
+}
+
 #[derive(Clone, Default)]
 pub(crate) struct Program {
     pub(crate) whiskers: usize,
@@ -169,6 +178,8 @@ pub(crate) struct Program {
     pub(crate) parameters: Vec<(String, Expression)>,
     pub(crate) derived: Vec<Derived>,
     pub(crate) laws: Vec<Law>,
+    /// Elsewhere, `M0.k` is what `k` is in the first of them.
+    pub(crate) monitors: Vec<Monitor>,
     /// What the machine itself remembers, and what it does every tick; a `let` stands only in the blocks of an `if`.
     pub(crate) memory: Vec<(String, Type, Expression)>,
     pub(crate) body: Vec<Statement>,

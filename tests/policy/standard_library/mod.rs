@@ -5,5 +5,6 @@ mod guard;
 mod law;
 mod mirror;
 mod mounting;
+mod platform;
 mod retrieval;
 mod swiping;

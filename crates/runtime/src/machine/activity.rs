@@ -57,10 +57,13 @@ impl Activity {
         action: &mut Action,
     ) -> (Result<(), End>, Option<Fallback>) {
         let now = senses.time();
-        if !self.has_begun {
-            self.has_begun = true;
+        let is_first = !std::mem::replace(&mut self.has_begun, true);
+        if is_first {
             self.compute(program, &program.start, senses);
             self.compute(program, &program.entry, senses);
+        }
+        self.compute(program, &program.monitors, senses);
+        if is_first {
             self.enter(program, None, (self.state(), false), now, senses);
         }
         let mut enabled = self.enabled(program, None, now, senses);

@@ -120,6 +120,23 @@ impl Op {
         }
     }
 
+    /// True if the operation records, marks or gives a command.
+    #[must_use]
+    pub fn is_action(self) -> bool {
+        matches!(
+            self,
+            Self::Record { .. }
+                | Self::RecordPosition { .. }
+                | Self::Mark { .. }
+                | Self::SteerBodyFacing { .. }
+                | Self::SteerBodyTurning { .. }
+                | Self::SteerWhiskerFacing { .. }
+                | Self::SteerWhiskerTurning { .. }
+                | Self::Hold
+                | Self::Stop
+        )
+    }
+
     /// The registers that the operation reads and writes.
     #[must_use]
     pub fn operands(mut self) -> Operands {

@@ -56,6 +56,8 @@ pub struct Program {
     pub start: Block,
     /// Code that runs once after `start` and before a state is entered. It initialises the memory of the machine.
     pub entry: Block,
+    /// Code that runs first in every tick, before transitions are tried. It only changes memory.
+    pub monitors: Block,
     /// Code that runs in every tick before the bodies of the active states.
     pub body: Block,
     /// Global transitions. They are tried first in every state.
@@ -320,13 +322,13 @@ impl Program {
         self.outward(state).find_map(own).or_else(|| Some((None, self.fallback.as_ref()?)))
     }
 
-    /// Maximum number of operations of a tick that stays in a state: all guards and bodies of the program, the state
-    /// and its outer states. Jumps only go forward, so a block never runs more operations than it contains.
+    /// Maximum number of operations of a tick that stays in a state: the monitors, and all guards and bodies of the
+    /// program, the state and its outer states. Jumps only go forward, so a block never runs more operations than it contains.
     #[must_use]
     pub fn operations(&self, state: usize) -> usize {
         let guards = |transitions: &[Transition]| guards(transitions).len();
         let active = self.outward(state).map(|state| &self.states[state]);
-        let own = guards(&self.always) + self.body.len();
+        let own = self.monitors.len() + guards(&self.always) + self.body.len();
         own + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
     }
 
@@ -350,7 +352,8 @@ impl Program {
             + enter;
         let look = most(&|state| along_path(state, &|state| guards(&state.transitions)));
         let act = most(&|state| along_path(state, &|state| state.body.len()));
-        let once = self.start.len() + self.entry.len() + enter + guards(&self.always) + self.body.len();
+        let once = self.start.len() + self.entry.len() + self.monitors.len() + enter;
+        let once = once + guards(&self.always) + self.body.len();
         once + (MICROSTEP_LIMIT + 1) * (look + transition) + 2 * act
     }
 

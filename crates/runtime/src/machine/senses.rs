@@ -76,6 +76,16 @@ pub enum BodyScalar {
     Blocked,
     /// Difference (m/s) between the commanded and the actual speed, at the corner of the body with the largest one.
     Shortfall,
+    /// Length of the body from tail to nose (m).
+    Length,
+    /// Greatest width of the body (m).
+    Width,
+    /// Width of the body at the nose (m).
+    NoseWidth,
+    /// Width of the body at the tail (m).
+    TailWidth,
+    /// Distance of the nose ahead of the centre of mass (m).
+    NoseReach,
 }
 
 /// Scalars and booleans of a whisker.

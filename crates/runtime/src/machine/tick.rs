@@ -130,7 +130,7 @@ impl Machine {
         }
     }
 
-    /// Executes one tick. It tries the global transitions first, and then those of the active states, from the
+    /// Executes one tick. The monitors run first. Then it tries the global transitions, and then those of the active states, from the
     /// outermost to the innermost and in their written order. After each one taken it tries again, up to
     /// [`MICROSTEP_LIMIT`] times. Then the body of the program runs, and the bodies of the active states, from the
     /// outermost to the innermost.

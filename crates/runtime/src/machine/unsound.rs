@@ -53,6 +53,9 @@ pub enum Unsound {
     /// An outer state does not come before its inner state, or the nesting is too deep.
     #[error("its state {0} has an invalid outer state, or is nested more than {NESTING_LIMIT} deep")]
     Nesting(usize),
+    /// A monitor does more than change memory.
+    #[error("its monitors record, or give a command")]
+    Monitor,
     /// The initial state of a state is missing or is not one of its inner states, or a state without inner states is
     /// resumed.
     #[error("its state {0} has an invalid initial state")]

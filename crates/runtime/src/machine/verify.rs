@@ -44,6 +44,7 @@ impl Program {
             initial,
             start: _,
             entry: _,
+            monitors,
             body: _,
             always,
             fallback: _,
@@ -68,9 +69,12 @@ impl Program {
             }
         }
         is_name(name)?;
+        // The name of a state in a behaviour is a path: `Following.Swiping`.
         let values = parameters.iter().map(|parameter| parameter.name.as_str());
         let values = values.chain(whiskers.iter().map(String::as_str));
         let values = values.chain(contours.iter().map(|contour| contour.name.as_str()));
+        values.clone().try_for_each(is_name)?;
+        states.iter().try_for_each(|state| state.name.split('.').try_for_each(is_name))?;
         distinct(values.chain(states.iter().map(|state| &*state.name)))?;
         if !contours.iter().map(|contour| &contour.keypoints).chain([keypoints]).all(Keypoints::are_valid) {
             return Err(Unsound::Keypoints);
@@ -90,6 +94,10 @@ impl Program {
         self.verify_hierarchy()?;
         self.verify_transitions()?;
         self.verify_blocks()?;
+        // The block is within the code.
+        if code[monitors.start as usize..monitors.end as usize].iter().any(|op| op.is_action()) {
+            return Err(Unsound::Monitor);
+        }
         self.verify_operands()
     }
 
@@ -221,7 +229,7 @@ impl Program {
             state.transitions.iter().flat_map(of_transition).chain(own).chain(fallback).collect::<Vec<Block>>()
         };
         let fallback = self.fallback.iter().map(of_target);
-        let acts = [&self.start, &self.entry, &self.body].map(Block::clone);
+        let acts = [&self.start, &self.entry, &self.monitors, &self.body].map(Block::clone);
         let own: Vec<Block> = self.always.iter().flat_map(of_transition).chain(fallback).chain(acts).collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
         let mut blocks: Vec<Block> = states.iter().flatten().chain(&own).cloned().collect();
@@ -346,11 +354,10 @@ fn is_name(name: &str) -> Result<(), Unsound> {
     if holds { Ok(()) } else { Err(Unsound::Name(name.to_owned())) }
 }
 
-/// Checks that all names are valid and different.
+/// Checks that all names are different.
 fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Result<(), Unsound> {
     let mut known = HashSet::new();
     for name in names {
-        is_name(name)?;
         if !known.insert(name) {
             return Err(Unsound::SameName(name.to_owned()));
         }

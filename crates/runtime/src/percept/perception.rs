@@ -8,7 +8,7 @@ use crate::machine::{
     WhiskerVector,
 };
 use crate::math;
-use crate::rig::{Rig, Whisker};
+use crate::rig::{Platform, Rig, Whisker};
 use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
@@ -42,6 +42,7 @@ pub struct Perception {
     /// Pose of the body in this tick, and that at which the next command takes effect, or unknown.
     body: Pose,
     at_effect: Pose,
+    platform: Platform,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
@@ -169,6 +170,7 @@ impl Perception {
             time: 0.0,
             body: Pose::default(),
             at_effect: Pose::default(),
+            platform: rig.platform.clone(),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             contours: Vec::new(),
@@ -376,6 +378,11 @@ impl Senses for Perception {
             BodyScalar::Yaw => self.at_effect.heading,
             BodyScalar::Blocked => f64::from(u8::from(self.disturbance.is_blocked())),
             BodyScalar::Shortfall => self.disturbance.shortfall(),
+            BodyScalar::Length => self.platform.length,
+            BodyScalar::Width => math::max(self.platform.nose_width, self.platform.tail_width),
+            BodyScalar::NoseWidth => self.platform.nose_width,
+            BodyScalar::TailWidth => self.platform.tail_width,
+            BodyScalar::NoseReach => self.platform.length - self.platform.centre_of_mass,
         }
     }
 

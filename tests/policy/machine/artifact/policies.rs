@@ -24,8 +24,10 @@ law touch(w: whisker, s: speed) {
   else if w.contour.curvature == 0 rad/m { hold }
   else { steer w along v at s facing angle(w.contour.end - body.position) }
 }
+monitor felt(w: whisker) { var most = 0 rad  if w.touching { set most = max(most, w.deflection) } }
+monitor right is felt(a)
 var farthest = 0 m
-if a.touching { set farthest = max(farthest, |a.tip|)  mark found a }
+if a.touching { set farthest = max(farthest, |a.tip| + right.most * 1 m / 1 rad)  mark found a }
 initial Start
 state Start {
   var closest = 1 m

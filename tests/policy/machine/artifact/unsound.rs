@@ -86,6 +86,7 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
     told(|program| program.states[0].exit.end += 1);
     told(|program| program.entry.end += 1);
     told(|program| program.body.end = u32::MAX);
+    told(|program| program.monitors.end = u32::MAX);
     told(|program| {
         let Target::State { arguments, .. } = &mut program.states[1].transitions[0].target else { panic!("a state") };
         *arguments = 0..u32::try_from(program.code.len()).unwrap();
@@ -94,6 +95,24 @@ fn blocks_are_parts_of_the_code_that_do_not_cross() {
     told(|program| {
         program.states[1].fallback = Some(Target::State { state: 0, arguments: u32::MAX..u32::MAX, resume: false });
     });
+}
+
+#[test]
+fn monitors_only_change_memory() {
+    let acts: [fn(&Op) -> bool; 3] = [
+        |op| matches!(op, Op::Record { .. }),
+        |op| matches!(op, Op::Mark { .. }),
+        |op| matches!(op, Op::SteerWhiskerFacing { .. } | Op::SteerBodyFacing { .. }),
+    ];
+    for is_act in acts {
+        let told = refusal(|program| {
+            let act = program.code[find(program, is_act)];
+            let at = program.monitors.start as usize;
+            assert!(!program.monitors.is_empty());
+            program.code[at] = act;
+        });
+        assert!(told.contains("its monitors record, or give a command"), "{told}");
+    }
 }
 
 #[test]

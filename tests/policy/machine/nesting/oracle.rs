@@ -26,7 +26,7 @@ fn done(machine: &mut Machine, script: &mut Script) -> Done {
         Action::Steer { speed, .. } => Some(speed as usize),
         Action::Hold | Action::Stop => None,
     };
-    let state = machine.state_name().strip_prefix('S').map(|state| state.parse().unwrap());
+    let state = machine.state_name().rsplit('.').next().unwrap().strip_prefix('S').map(|state| state.parse().unwrap());
     Done { events: events.collect(), state, commander }
 }
 

@@ -14,6 +14,8 @@ pub(crate) struct Tree {
     /// An outer state comes before those in it; the first lies in none, and the machine begins in it.
     pub(crate) states: Vec<Node>,
     pub(crate) always: Vec<Rule>,
+    /// The state that is written as a behaviour, which the state around it uses. It is alone in that state.
+    pub(crate) behaviour: Option<usize>,
 }
 
 #[derive(Debug, Clone)]
@@ -76,6 +78,39 @@ impl Tree {
         way
     }
 
+    /// Whether a state is the behaviour or in it.
+    pub(crate) fn is_in_behaviour(&self, state: usize) -> bool {
+        self.behaviour.is_some_and(|behaviour| self.way(state).contains(&behaviour))
+    }
+
+    /// The states whose memory and arguments a state knows: those on the way to it, from the behaviour on if it is in that.
+    fn known(&self, state: usize) -> Vec<usize> {
+        let mut way = self.way(state);
+        if self.is_in_behaviour(state) {
+            way.retain(|&state| self.is_in_behaviour(state));
+        }
+        way
+    }
+
+    /// Whether a rule leaves the behaviour.
+    fn is_exit(&self, from: Option<usize>, rule: &Rule) -> bool {
+        from.is_some_and(|from| self.is_in_behaviour(from)) && !self.is_in_behaviour(rule.target)
+    }
+
+    /// The rules that leave the behaviour, each with its number among those of its state.
+    fn exits(&self) -> impl Iterator<Item = (usize, usize, &Rule)> {
+        let rules = self.states.iter().enumerate().flat_map(|(from, node)| {
+            node.rules.iter().enumerate().map(move |(index, rule)| (from, index, rule))
+        });
+        rules.filter(|(from, _, rule)| self.is_exit(Some(*from), rule))
+    }
+
+    /// The values of a rule that its text has, in order.
+    fn written(&self, from: Option<usize>, rule: &Rule) -> Vec<Value> {
+        let entered = self.entered(from, rule.target).into_iter().filter(|&state| self.states[state].has_argument);
+        entered.map(|state| rule.values.iter().find(|(of, _)| *of == state).unwrap().1).collect()
+    }
+
     /// The states on the way to a rule's target that it enters, if it is a rule of `from`.
     pub(crate) fn entered(&self, from: Option<usize>, target: usize) -> Vec<usize> {
         let (from, way) = (from.map_or_else(Vec::new, |from| self.way(from)), self.way(target));
@@ -90,17 +125,41 @@ impl Tree {
         let mut text = String::from("machine m whisker w0, w1, w2, w3, w4, w5, w6, w7 initial S0\n");
         self.write_inside(None, &mut text);
         for rule in &self.always {
-            writeln!(text, "always {}", self.rule(None, rule)).unwrap();
+            writeln!(text, "always {}", self.rule(None, None, rule)).unwrap();
+        }
+        if let Some(behaviour) = self.behaviour {
+            self.write_inside(self.states[behaviour].parent, &mut text);
         }
         text
     }
 
+    /// Writes the states in a state, or the behaviour that it uses.
     fn write_inside(&self, parent: Option<usize>, text: &mut String) {
         for (index, node) in self.states.iter().enumerate().filter(|(_, node)| node.parent == parent) {
+            let is_behaviour = self.behaviour == Some(index);
+            let uses = self.behaviour.filter(|&behaviour| self.states[behaviour].parent == Some(index));
             let arguments = if node.has_argument { format!("(a{index}: whisker)") } else { String::new() };
-            writeln!(text, "state S{index}{arguments} {{").unwrap();
-            if let Some((initial, value)) = &node.initial {
-                writeln!(text, "initial {}", self.step(*initial, &[(*initial, *value)])).unwrap();
+            let used = match (uses, &node.initial) {
+                (Some(_), Some((initial, value))) => format!("is {}", self.step(*initial, &[(*initial, *value)])),
+                _ => String::new(),
+            };
+            writeln!(text, "{} S{index}{arguments} {used} {{", if is_behaviour { "behaviour" } else { "state" }).unwrap();
+            match &node.initial {
+                Some((initial, value)) if uses.is_none() => {
+                    writeln!(text, "initial {}", self.step(*initial, &[(*initial, *value)])).unwrap();
+                }
+                _ => {}
+            }
+            for (from, number, rule) in self.exits() {
+                let names: Vec<String> = (0..self.written(Some(from), rule).len()).map(|k| format!("x{k}")).collect();
+                let list = |list: &[String]| if list.is_empty() { String::new() } else { format!("({})", list.join(", ")) };
+                if is_behaviour {
+                    let typed: Vec<String> = names.iter().map(|name| format!("{name}: whisker")).collect();
+                    writeln!(text, "exit e{from}_{number}{}", list(&typed)).unwrap();
+                } else if uses.is_some() {
+                    let target = self.target(Some(from), rule, Some(&names));
+                    writeln!(text, "on e{from}_{number}{} -> {target}", list(&names)).unwrap();
+                }
             }
             let begin = if node.has_argument { format!("a{index}") } else { format!("w{}", index % 8) };
             writeln!(text, "var m{index} = {begin}").unwrap();
@@ -116,27 +175,45 @@ impl Tree {
                 writeln!(text, "steer body along vector(1, 0) at {index} m/s turning 0 rad/s").unwrap();
             }
             writeln!(text, "exit {{ {} {} }}", tell(2), set(2)).unwrap();
-            for rule in &node.rules {
-                writeln!(text, "{}", self.rule(Some(index), rule)).unwrap();
+            for (number, rule) in node.rules.iter().enumerate() {
+                let exit = self.is_exit(Some(index), rule).then_some((index, number));
+                writeln!(text, "{}", self.rule(Some(index), exit, rule)).unwrap();
             }
-            self.write_inside(Some(index), text);
+            if uses.is_none() {
+                self.write_inside(Some(index), text);
+            }
             text.push_str("}\n");
         }
     }
 
-    fn rule(&self, from: Option<usize>, rule: &Rule) -> String {
+    /// The text of a rule. `exit` are the state and the number of one that leaves the behaviour.
+    fn rule(&self, from: Option<usize>, exit: Option<(usize, usize)>, rule: &Rule) -> String {
         let time = |ticks: usize| format!("{:?} s", ticks as f64 / RATE);
         let guard = match rule.guard {
             Guard::When(whisker) => format!("when w{whisker}.touching"),
             Guard::WhenFor(whisker, ticks) => format!("when w{whisker}.touching for {}", time(ticks)),
             Guard::After(ticks) => format!("after {}", time(ticks)),
         };
+        let Some((state, number)) = exit else { return format!("{guard} -> {}", self.target(from, rule, None)) };
+        let values: Vec<String> = self.written(from, rule).into_iter().map(Value::text).collect();
+        let values = if values.is_empty() { String::new() } else { format!("({})", values.join(", ")) };
+        format!("{guard} -> exit e{state}_{number}{values}")
+    }
+
+    /// The target of a rule. `names` stand for its values.
+    fn target(&self, from: Option<usize>, rule: &Rule, names: Option<&[String]>) -> String {
         let entered = self.entered(from, rule.target);
         // Those without arguments may be left out; every other one is.
         let written =
             entered.iter().filter(|&&state| state == rule.target || self.states[state].has_argument || state % 2 == 0);
-        let steps: Vec<String> = written.map(|&state| self.step(state, &rule.values)).collect();
-        format!("{guard} -> {}{}", if rule.resume { "resume " } else { "" }, steps.join("."))
+        let mut names = names.map(|names| names.iter());
+        let steps: Vec<String> = written
+            .map(|&state| match names.as_mut() {
+                Some(names) if self.states[state].has_argument => format!("S{state}({})", names.next().unwrap()),
+                _ => self.step(state, &rule.values),
+            })
+            .collect();
+        format!("{}{}", if rule.resume { "resume " } else { "" }, steps.join("."))
     }
 
     fn step(&self, state: usize, values: &[(usize, Value)]) -> String {
@@ -175,8 +252,12 @@ fn value(states: &[Node], way: &[usize], choice: Index) -> Value {
 }
 
 fn rule(tree: &Tree, from: Option<usize>, choices: &Choices, features: Features) -> Rule {
-    let known = from.map_or_else(Vec::new, |from| tree.way(from));
-    let target = choices[0].index(tree.states.len());
+    let known = from.map_or_else(Vec::new, |from| tree.known(from));
+    let mut target = choices[0].index(tree.states.len());
+    if tree.is_in_behaviour(target) && !from.is_some_and(|from| tree.is_in_behaviour(from)) {
+        // What is in a behaviour is entered with the state that uses it.
+        target = tree.behaviour.and_then(|behaviour| tree.states[behaviour].parent).unwrap();
+    }
     let whisker = choices[1].index(8);
     let ticks = 1 + choices[2].index(4);
     let guard = match choices[3].index(4) {
@@ -198,8 +279,8 @@ pub(crate) fn trees(features: Features) -> impl Strategy<Value = Tree> {
     let states = prop::collection::vec((choices(), any::<[bool; 2]>()), 2..=features.states);
     let rules = prop::collection::vec((any::<Index>(), choices()), 1..=features.rules);
     let always = prop::collection::vec(choices(), 0..=usize::from(features.always) * 2);
-    (states, rules, always).prop_map(move |(nodes, rules, always)| {
-        let mut tree = Tree { states: Vec::new(), always: Vec::new() };
+    (states, rules, always, prop::option::of(any::<Index>())).prop_map(move |(nodes, rules, always, behaviour)| {
+        let mut tree = Tree { states: Vec::new(), always: Vec::new(), behaviour: None };
         for (index, (choices, [has_argument, commands])) in nodes.iter().enumerate() {
             // Beside the state before, in it, or beside one around it; at most five deep.
             let around = index.checked_sub(1).map_or_else(Vec::new, |before| tree.way(before));
@@ -213,8 +294,15 @@ pub(crate) fn trees(features: Features) -> impl Strategy<Value = Tree> {
                 commands: *commands,
             });
         }
+        let only: Vec<usize> = (0..tree.states.len())
+            .filter(|&state| {
+                let parent = tree.states[state].parent;
+                parent.is_some() && tree.states.iter().filter(|other| other.parent == parent).count() == 1
+            })
+            .collect();
+        tree.behaviour = behaviour.filter(|_| !only.is_empty()).map(|choice| only[choice.index(only.len())]);
         for (index, (choices, _)) in nodes.iter().enumerate() {
-            let way = tree.way(index);
+            let way = tree.known(index);
             let inner: Vec<usize> =
                 (0..tree.states.len()).filter(|&inner| tree.states[inner].parent == Some(index)).collect();
             if !inner.is_empty() {
