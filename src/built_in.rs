@@ -32,5 +32,8 @@ pub const SCENARIOS: &[TextFile] = &[
 /// The policies that the bench runs unless it is given others. They use the standard library alone.
 pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm"), DEFAULT_POLICY];
 
+/// The mismatch of an array that is made with care and that nobody has calibrated.
+pub const PLAUSIBLE_MISMATCH: TextFile = text_file!("scenarios/mismatch/plausible.yaml");
+
 /// The policy that runs in scenes of families unless another is given.
 pub const DEFAULT_POLICY: TextFile = text_file!("policies/vibrissa.fsm");

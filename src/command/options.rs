@@ -130,7 +130,7 @@ pub(super) struct MismatchOptions {
     /// same key of the file
     #[arg(long = "mismatch", value_name = "FILE")]
     mismatch_file: Option<PathBuf>,
-    /// Seed of the values that a mismatch draws from ranges. The array of each further run has the next seed
+    /// Seed of the values that a mismatch draws from ranges. `families`, `compare`, `sweep` and `calibrate --arrays` add the number of the run
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     mismatch_seed: Option<u64>,
 }

@@ -41,12 +41,12 @@ fn written(text: &str) -> Result<(), Failure> {
 }
 
 /// Prints documents as a JSON list, or the tables of `tables`.
-pub(super) fn documents<const N: usize>(
+pub(super) fn documents<T: AsRef<[Table]>>(
     format: Format,
     documents: &[impl Document],
-    tables: impl FnOnce() -> [Table; N],
+    tables: impl FnOnce() -> T,
 ) -> Result<(), Failure> {
-    if format.json { json_list(documents) } else { self::tables(&tables(), format.wide) }
+    if format.json { json_list(documents) } else { self::tables(tables().as_ref(), format.wide) }
 }
 
 /// Prints a document as JSON, or the tables of `tables`.

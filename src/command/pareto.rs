@@ -1,26 +1,27 @@
 //! `vibrissa pareto`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
+use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::Format;
+use super::options::{Format, MismatchOptions, Policies};
 use super::output;
 use super::progress::Progress;
 use super::trials::{extended, make_directory};
 use super::values::parse_repeats;
-use crate::built_in::{DEFAULT_POLICY, SCENARIOS};
-use crate::file::{CommandFiles, OutputError};
-use crate::load;
+use crate::built_in::SCENARIOS;
+use crate::file::{CommandFiles, Output, OutputError};
+use crate::load::{self, Loaded};
 use crate::report::{pareto_picture, pareto_table};
 use crate::results::{Document, Ending};
-use crate::study::pareto::{Setting, measure};
+use crate::study::pareto::{Pareto, Setting, measure};
 use crate::trial::check_world;
 
-const EXAMPLE: &str = "Example:\n  vibrissa pareto scenarios/box.yaml --repeats 5 --out out\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa pareto scenarios/box.yaml --repeats 5 --out out\n  vibrissa pareto --policy policies/thesis.fsm --mismatch scenarios/mismatch/hard.yaml\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa pareto`.
 #[derive(Debug, Args)]
@@ -29,10 +30,11 @@ pub(super) struct ParetoArguments {
     /// Scenario. The default is the disk of the bench
     #[arg(value_name = "SCENARIO")]
     scenario: Option<PathBuf>,
-    /// Policy or compiled machine. The default is `vibrissa.fsm`
-    #[arg(long, value_name = "FILE")]
-    policy: Option<PathBuf>,
-    /// Number of runs of every setting, from 1 to 1000. Run times are medians
+    #[command(flatten)]
+    policies: Policies,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
+    /// Number of runs of every setting without a mismatch, from 1 to 1000. Run times are medians
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, value_parser = parse_repeats)]
     repeats: usize,
     /// Write the results and a picture of time against error into this directory
@@ -44,41 +46,59 @@ pub(super) struct ParetoArguments {
 
 pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let (path, scenario) = match &arguments.scenario {
+    let (path, Loaded { value: mut scene, mut hash }) = match &arguments.scenario {
         Some(path) => (path.clone(), load::scenario(path, &mut files)?),
         None => (SCENARIOS[0].path.into(), load::built_in_scenario(&SCENARIOS[0])?),
     };
-    let policy = match &arguments.policy {
-        Some(path) => load::policy(path, &mut files)?,
-        None => load::built_in_policy(&DEFAULT_POLICY)?,
-    };
-    output::warnings(&policy.value);
-    let (scene, program) = (scenario.value, Arc::new(policy.value.artifact.program));
+    let given = arguments.mismatch.load(&mut files)?;
+    let given = if scene.mismatch.is_none() { given.or_plausible()? } else { given };
+    given.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(&path))?;
+    let mismatch = scene.mismatch.take().unwrap_or_default();
+    let policies = arguments.policies.load(&mut files)?;
+    let programs: Vec<_> = policies.into_iter().map(|policy| Arc::new(policy.value.artifact.program)).collect();
     let world = scene.world.unwrap_or_default();
     let failed = |cause| Failure::Execute { scenario: path.clone(), cause };
     check_world(world).map_err(failed)?;
     make_directory(arguments.out.as_deref())?;
-    let report = arguments.out.as_ref().map(|directory| {
-        let stem = directory.join(format!("{}-pareto", scene.name));
-        Ok::<_, OutputError>([
-            files.output("--out", &extended(&stem, "json"))?,
-            files.output("--out", &extended(&stem, "svg"))?,
-        ])
-    });
-    let report = report.transpose()?;
+    let report = |program: &Arc<Program>| {
+        let stem = |directory: &PathBuf| directory.join(format!("{}-{}-pareto", scene.name, program.name));
+        arguments.out.as_ref().map(|directory| Report::new(&stem(directory), &mut files)).transpose()
+    };
+    let reports = programs.iter().map(report).collect::<Result<Vec<_>, _>>()?;
     let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats);
-    let mut progress = Progress::new(settings.len() * repeats);
-    let measured = measure(&scene, &program, world, &settings, repeats, |setting| progress.done(setting));
+    let mut progress = Progress::new(programs.len() * settings.len() * (repeats + 1));
+    let mut measured = Vec::with_capacity(programs.len());
+    for program in &programs {
+        let pareto = measure(&scene, &mismatch, program, world, &settings, repeats, |setting| progress.done(setting));
+        measured.push(pareto.map_err(failed)?);
+    }
     progress.finish();
-    let pareto = measured.map_err(failed)?;
-    for row in pareto.settings.iter().filter(|row| row.outcome != Ending::Completed) {
-        let reason = row.reason.as_deref().unwrap_or("unknown reason");
-        output::message(format_args!("{}: {reason}", row.setting));
+    for (pareto, report) in measured.iter().zip(reports) {
+        for row in pareto.settings.iter().filter(|row| row.outcome != Ending::Completed) {
+            let reason = row.reason.as_deref().unwrap_or("unknown reason");
+            output::message(format_args!("{}: {}: {reason}", pareto.policy, row.setting));
+        }
+        report.map(|report| report.write(pareto)).transpose()?;
     }
-    if let Some([results, picture]) = report {
-        results.write(serde_json::to_string_pretty(&pareto.versioned())? + "\n")?;
-        picture.write(pareto_picture(&pareto))?;
-    }
-    output::document(arguments.format, &pareto, || [pareto_table(&pareto)])?;
+    output::documents(arguments.format, &measured, || measured.iter().map(pareto_table).collect::<Vec<_>>())?;
     Ok(Exit::Done)
+}
+
+/// The files of a policy.
+struct Report {
+    results: Output,
+    picture: Output,
+}
+
+impl Report {
+    fn new(stem: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |extension| files.output("--out", &extended(stem, extension));
+        Ok(Self { results: file("json")?, picture: file("svg")? })
+    }
+
+    fn write(self, pareto: &Pareto) -> Result<(), Failure> {
+        self.results.write(serde_json::to_string_pretty(&pareto.versioned())? + "\n")?;
+        self.picture.write(pareto_picture(pareto))?;
+        Ok(())
+    }
 }

@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
             exit = Exit::Unexpected;
         }
         if tick_file.is_some() {
-            for line in tick_lines(&result.scenario, &finished.run.trace) {
+            for line in tick_lines(&result.scenario, &finished.run.trace, trial.assumed_rig.sensing.friction) {
                 ticks += &output::json_line(&line)?;
             }
         }

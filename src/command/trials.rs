@@ -12,7 +12,7 @@ use super::progress::Progress;
 use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::report::{picture, retrieval_picture};
-use crate::results::{Document, Failsafes, RunResult};
+use crate::results::{Document, Failsafes, Inclination, RunResult};
 use crate::run::Trace;
 use crate::scene::Violation;
 use crate::trial::{Inputs, Trial, TrialResult, in_parallel, short_hash};
@@ -151,13 +151,24 @@ pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
 
 /// Prints the notable events of a run.
 pub(super) fn report_events(result: &RunResult) {
-    let RunResult { scenario, outcome, reason, collisions, .. } = result;
+    let RunResult { scenario, outcome, reason, collisions, inclination, out_of_plane, .. } = result;
     if let Some(reason) = reason {
         output::message(format_args!("{scenario}: {outcome}: {reason}"));
     }
     if collisions.count > 0 {
         let touched = collisions.time_s;
         output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
+    }
+    // A planar simulation keeps every whisker in the plane.
+    if let (Some(inclination), Some(_)) = (inclination, out_of_plane)
+        && let Inclination { margin_rad, whisker: Some(whisker), time_s, state, beyond_s, .. } = inclination
+        && *beyond_s > 0.0
+    {
+        let (state, excess) = (state.as_deref().unwrap_or("no state"), -margin_rad.to_degrees());
+        output::message(format_args!(
+            "{scenario}: whiskers were beyond the limit of the inclination for {beyond_s:.1} s, at most by {excess:.0} deg: \
+             {whisker} at {time_s:.2} s in {state}; a round whisker leaves the plane there"
+        ));
     }
     if let Failsafes { count, first_s: Some(time), first_state: Some(state), first_cause: Some(cause) } =
         &result.failsafes

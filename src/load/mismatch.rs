@@ -6,6 +6,8 @@ use sha2::{Digest, Sha256};
 
 use super::text::read;
 use super::{LoadError, Loaded};
+use crate::built_in::PLAUSIBLE_MISMATCH;
+use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::mismatch::{Mismatch, MismatchError};
 use crate::scenario::read_mismatch;
@@ -25,6 +27,12 @@ impl GivenMismatch {
     pub(crate) fn read(path: Option<&Path>, seed: Option<u64>, files: &mut CommandFiles) -> Result<Self, LoadError> {
         let file = path.map(|path| mismatch(path, files)).transpose()?;
         Ok(Self { file, seed })
+    }
+
+    /// The same, with the built-in plausible array if no file is given.
+    pub(crate) fn or_plausible(self) -> Result<Self, LoadError> {
+        let built_in = || mismatch_in(Source::new(PLAUSIBLE_MISMATCH.path, PLAUSIBLE_MISMATCH.text));
+        Ok(Self { file: Some(self.file.map_or_else(built_in, Ok)?), ..self })
     }
 
     /// The hash of the file.
@@ -66,7 +74,11 @@ impl GivenMismatch {
 
 /// Reads a file with a mismatch.
 fn mismatch(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Mismatch>, LoadError> {
-    let source = read(path, files)?;
+    mismatch_in(read(path, files)?)
+}
+
+/// The mismatch of a text that has been read.
+fn mismatch_in(source: Source) -> Result<Loaded<Mismatch>, LoadError> {
     match read_mismatch(&source) {
         Ok(value) => Ok(Loaded { value, hash: Sha256::new_with_prefix(&source.text) }),
         Err(faults) => Err(LoadError::Faults { source_text: Box::new(source), faults }),

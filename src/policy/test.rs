@@ -123,6 +123,8 @@ pub enum RunFigure {
     CornerPathMax,
     /// Number of collisions of the platform's body.
     Collisions,
+    /// Time beyond the limit of the inclination, added over all whiskers (s).
+    InclinationBeyond,
     /// Number of entries of the state with this index.
     Visits(usize),
     /// Total time in the state with this index (s).
@@ -136,7 +138,9 @@ impl RunFigure {
                 (value > 0.5).to_string()
             }
             _ if value.is_nan() => "not known".to_owned(),
-            Self::Time | Self::TimeIn(_) | Self::CornerTimeMax => format_si(value, Dimension::TIME),
+            Self::Time | Self::TimeIn(_) | Self::CornerTimeMax | Self::InclinationBeyond => {
+                format_si(value, Dimension::TIME)
+            }
             Self::ErrorMean
             | Self::ErrorP95
             | Self::ErrorMax

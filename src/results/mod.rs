@@ -2,6 +2,7 @@
 
 mod document;
 mod drive_result;
+mod inclination;
 mod replay_result;
 mod run_result;
 mod tally;
@@ -9,11 +10,12 @@ mod tick_line;
 
 pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
+pub use inclination::Inclination;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub(crate) use run_result::marked;
 pub use run_result::{
-    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, Inclination, MeanP95Max, MeanStd, MeanStdMax,
-    MismatchIdentity, OutOfPlane, Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
+    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity,
+    OutOfPlane, Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
 };
 pub use tally::{Ending, Figures, Tally, TipShares};
 pub use tick_line::{OutOfPlaneLine, TickLine, tick_lines};

@@ -1,6 +1,7 @@
 //! The result of a run as a JSON document.
 
 use super::Document;
+use super::inclination::Inclination;
 use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
@@ -271,21 +272,6 @@ pub struct OutOfPlane {
     pub first_state: Option<String>,
 }
 
-/// Inclination of whiskers that follow a surface.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Inclination {
-    /// Largest angle between a shaft at its base and the surface: π/2 if they are perpendicular, less if the shaft is
-    /// swept back.
-    pub max_rad: f64,
-    /// Smallest margin by which a round whisker stays in the plane. A real whisker with a negative margin slips out of the plane.
-    pub margin_rad: f64,
-    /// Name of the active state at that angle.
-    pub state: Option<String>,
-    /// Time with a negative margin, added over all whiskers.
-    pub beyond_s: f64,
-}
-
 /// Mean, sample standard deviation and maximum, in the unit of the key that holds them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -393,12 +379,7 @@ impl RunResult {
             path_ratio: score.path_ratio,
             collisions: Collisions { count: score.collisions.count, time_s: score.collisions.time },
             out_of_plane: score.out_of_plane.map(|figures| OutOfPlane::new(&figures, &run.trace)),
-            inclination: score.inclination.map(|figures| Inclination {
-                max_rad: figures.largest,
-                margin_rad: figures.margin,
-                state: state_name(&run.trace, figures.state),
-                beyond_s: figures.beyond,
-            }),
+            inclination: score.inclination.as_ref().map(|figures| Inclination::new(figures, &run.trace)),
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
                 p99: latency.map(|latency| microseconds(latency.p99)),
@@ -433,7 +414,7 @@ impl OutOfPlane {
     }
 }
 
-fn state_name(trace: &Trace, state: Option<usize>) -> Option<String> {
+pub(super) fn state_name(trace: &Trace, state: Option<usize>) -> Option<String> {
     trace.states.get(state?).cloned()
 }
 

@@ -4,6 +4,7 @@ use super::Document;
 use serde::Serialize;
 
 use crate::run::{TickRecord, Trace};
+use vibrissa_runtime::mechanics::out_of_plane_margin;
 
 /// One control tick, in the units of its keys. Its serialised form is a line that `run --ticks` writes.
 ///
@@ -51,6 +52,8 @@ pub struct WhiskerLine<'a> {
     /// Angle between the shaft at its base and the surface that it follows: π/2 if they are perpendicular, less if the
     /// shaft is swept back.
     pub inclination_rad: Option<f64>,
+    /// Margin by which a round whisker with this inclination stays in the plane. A negative one means that it leaves it.
+    pub inclination_margin_rad: Option<f64>,
     /// Motion of the tip out of the plane since the last tick. `None` for planar whiskers. Policies cannot read this.
     pub out_of_plane: Option<OutOfPlaneLine>,
     /// Estimated position of the tip.
@@ -75,8 +78,8 @@ pub struct OutOfPlaneLine {
     pub slips: bool,
 }
 
-/// The lines of a run's ticks.
-pub fn tick_lines<'a>(scenario: &'a str, trace: &'a Trace) -> impl Iterator<Item = TickLine<'a>> {
+/// The lines of a run's ticks. `friction` is the coefficient that perception assumes.
+pub fn tick_lines<'a>(scenario: &'a str, trace: &'a Trace, friction: f64) -> impl Iterator<Item = TickLine<'a>> {
     trace.ticks.iter().enumerate().map(move |(index, tick)| TickLine {
         scenario,
         time_s: tick.time,
@@ -86,11 +89,11 @@ pub fn tick_lines<'a>(scenario: &'a str, trace: &'a Trace) -> impl Iterator<Item
         velocity_m_s: tick.command.velocity_world.into(),
         yaw_rate_rad_s: tick.command.yaw_rate,
         body_touches: tick.body_touches,
-        whiskers: whisker_lines(trace, index, tick),
+        whiskers: whisker_lines(trace, index, tick, friction),
     })
 }
 
-fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord) -> Vec<WhiskerLine<'a>> {
+fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord, friction: f64) -> Vec<WhiskerLine<'a>> {
     let first_mark = trace.marks.partition_point(|mark| mark.tick < index);
     let marks = || trace.marks[first_mark..].iter().take_while(|mark| mark.tick == index);
     let line = |(whisker, name): (usize, &'a String)| WhiskerLine {
@@ -99,6 +102,9 @@ fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord) -> Vec<W
         touching: tick.contacts[whisker].is_touching,
         springs: tick.snap_offs[whisker],
         inclination_rad: tick.contacts[whisker].inclination,
+        inclination_margin_rad: tick.contacts[whisker]
+            .inclination
+            .map(|inclination| out_of_plane_margin(inclination, friction)),
         out_of_plane: tick.out_of_plane[whisker]
             .map(|motion| OutOfPlaneLine { distance_m: motion.distance, slips: motion.slips }),
         tip_m: tick.contacts[whisker].tip_world.map(|tip| tip.coords.into()),

@@ -59,6 +59,8 @@ pub enum Metric {
     OutOfPlaneMax,
     /// Number of slips of tips out of the plane, in a spatial simulation.
     Slips,
+    /// Time beyond the limit of the inclination, added over all whiskers.
+    InclinationBeyond,
 }
 
 /// A condition on the result of a run.
@@ -121,7 +123,7 @@ impl fmt::Display for Outcome {
 
 impl Metric {
     /// All metrics.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::ErrorMean,
         Self::ErrorP95,
         Self::ErrorMax,
@@ -141,6 +143,7 @@ impl Metric {
         Self::Collisions,
         Self::OutOfPlaneMax,
         Self::Slips,
+        Self::InclinationBeyond,
     ];
 
     /// The name in scenarios.
@@ -166,6 +169,7 @@ impl Metric {
             Self::Collisions => "collisions",
             Self::OutOfPlaneMax => "out_of_plane_max",
             Self::Slips => "slips",
+            Self::InclinationBeyond => "inclination_beyond",
         }
     }
 
@@ -175,7 +179,7 @@ impl Metric {
         match self {
             _ if self.is_count() => Dimension::NUMBER,
             _ if self.is_share() => Dimension::NUMBER,
-            Self::CornerTimeMax => Dimension::TIME,
+            Self::CornerTimeMax | Self::InclinationBeyond => Dimension::TIME,
             _ => Dimension::LENGTH,
         }
     }

@@ -33,7 +33,7 @@ pub use error::{ErrorFigures, TipDistance};
 pub use estimate::{Estimate, MAX_BREAK, MAX_STEP};
 pub use excursion::{Excursion, excursions};
 pub use hausdorff::{HAUSDORFF_TOLERANCE, hausdorff};
-pub use inclination::InclinationFigures;
+pub use inclination::{InclinationFigures, Inclined};
 pub use latency::Latency;
 pub use out_of_plane::{OutOfPlaneFigures, Slip};
 pub use passage::Passage;

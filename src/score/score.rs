@@ -107,6 +107,7 @@ impl Score {
             Metric::CornerPlaceMax => self.all_corners()?.place.map(|place| place.max),
             Metric::CornerTimeMax => self.all_corners()?.time.map(|time| time.max),
             Metric::CornerPathMax => self.all_corners()?.path.map(|path| path.max),
+            Metric::InclinationBeyond => self.inclination.as_ref().map(|inclination| inclination.beyond),
             Metric::OutOfPlaneMax => Some(self.out_of_plane?.distance),
             Metric::Slips => Some(self.out_of_plane?.slips as f64),
             Metric::Collisions => Some(self.collisions.count as f64),

@@ -38,6 +38,7 @@ fn figure(figure: RunFigure, program: &Program, result: &TrialResult) -> f64 {
         RunFigure::CornerPlaceMax => measured(Metric::CornerPlaceMax),
         RunFigure::CornerTimeMax => measured(Metric::CornerTimeMax),
         RunFigure::CornerPathMax => measured(Metric::CornerPathMax),
+        RunFigure::InclinationBeyond => measured(Metric::InclinationBeyond),
         RunFigure::Collisions => measured(Metric::Collisions),
         RunFigure::Visits(state) => {
             let mut was_active = false;

@@ -235,7 +235,7 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 22] = [
+const RUN: [Member; 23] = [
     figure(
         "passed",
         Type::Truth,
@@ -326,6 +326,12 @@ const RUN: [Member; 22] = [
         "the maximum path length of the platform for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
     ),
     figure("collisions", Type::NUMBER, RunFigure::Collisions, "the number of collisions of the platform's body"),
+    figure(
+        "inclination_beyond",
+        Type::TIME,
+        RunFigure::InclinationBeyond,
+        "the time in which whiskers are inclined so much that a round one leaves the plane, added over all whiskers. Unknown if no whisker recorded a contour",
+    ),
     member(
         "visits",
         Type::NUMBER,

@@ -6,7 +6,7 @@ use svg::node::element::{Circle, Group, Path};
 use super::scale::Scale;
 use crate::report::style::{self, Anchor, line, px, text};
 
-/// A point with a cost and an error by either of two measures.
+/// A point with a cost and an error by each of three measures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FrontPoint {
     /// Name of the point.
@@ -16,16 +16,18 @@ pub(super) struct FrontPoint {
     /// Its cost, above 0.
     pub(super) cost: f64,
     /// Its errors, above 0. The flags are true if it is Pareto-optimal among all points, and among those of its group.
-    pub(super) errors: [Option<(f64, bool, bool)>; 2],
+    pub(super) errors: [Option<(f64, bool, bool)>; MEASURES],
 }
 
+/// Number of measures of the error.
+pub(super) const MEASURES: usize = 3;
 /// Width of the picture, of a panel and of its sides, and heights (px).
-const WIDTH: f64 = 1240.0;
-const PANEL: (f64, f64) = (520.0, 440.0);
-const LEFT: [f64; 2] = [70.0, 690.0];
+const WIDTH: f64 = 1560.0;
+const PANEL: (f64, f64) = (420.0, 440.0);
+const LEFT: [f64; MEASURES] = [70.0, 580.0, 1090.0];
 const TOP: f64 = 100.0;
 /// Columns of the names, and the height of a line of them (px).
-const COLUMNS: usize = 4;
+const COLUMNS: usize = 5;
 const LINE: f64 = 20.0;
 const DOT: f64 = 4.5;
 /// Size of a number beside a point (px), and its largest distance from the point.
@@ -38,7 +40,7 @@ pub(super) fn front_picture(
     title: &str,
     subtitle: &str,
     cost: &str,
-    errors: [&str; 2],
+    errors: [&str; MEASURES],
     kinds: &[&str],
     points: &[FrontPoint],
 ) -> String {

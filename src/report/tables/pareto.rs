@@ -4,27 +4,31 @@ use super::super::table::{NONE, Table};
 use crate::results::Ending;
 use crate::study::pareto::{Front, Pareto, ParetoRow};
 
-const HEADINGS: [&str; 10] = [
+const HEADINGS: [&str; 11] = [
     "setting",
     "Pareto-optimal",
     "in its world",
     "relative time",
     "exact error mm",
     "fine error mm",
+    "mismatched error mm",
     "coverage",
     "× real time",
     "least time",
     "greatest time",
 ];
 
-/// A table with a row for every setting. It shows whether the setting is Pareto-optimal by either error. Errors are
-/// against the exact contour and against the fine run. Times are relative to the default. The caption states the
+/// A table with a row for every setting. It shows whether the setting is Pareto-optimal by each error. Errors are
+/// against the exact contour, against the fine run, and against the exact contour with a mismatch. Times are relative to the default. The caption states the
 /// reproducibility of the fine run.
 #[must_use]
 pub fn pareto_table(pareto: &Pareto) -> Table {
     let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{floor:.4} mm"));
-    Table::new(3, HEADINGS, pareto.settings.iter().map(cells))
-        .under(format!("A fine run that starts 1 mm farther back differs from the fine run by {floor}."))
+    let Pareto { policy, mismatch, .. } = pareto;
+    let mismatch = mismatch.file.as_deref().unwrap_or("of the scenario");
+    Table::new(3, HEADINGS, pareto.settings.iter().map(cells)).under(format!(
+        "Policy {policy}, mismatch {mismatch}. A fine run that starts 1 mm farther back differs from the fine run by {floor}."
+    ))
 }
 
 fn cells(row: &ParetoRow) -> Vec<String> {
@@ -34,18 +38,20 @@ fn cells(row: &ParetoRow) -> Vec<String> {
     let [least, greatest] = [0, 1].map(|end| row.relative_time_range.map(|range| range[end]));
     let (front, front_of_world) = match row.outcome {
         Ending::Completed => (names(row.on_front), names(row.on_front_of_world)),
-        Ending::Timeout => ("timeout", ""),
-        Ending::Failed => ("failed", ""),
-        Ending::Diverged => ("diverged", ""),
-        Ending::Crashed | Ending::Refused => ("refused", ""),
+        ending => (ending.name().to_owned(), String::new()),
+    };
+    let mismatched = match row.mismatched_outcome {
+        Ending::Completed => shown(row.mismatched_mm, &error),
+        ending => ending.name().to_owned(),
     };
     vec![
         row.setting.clone(),
-        front.to_owned(),
-        front_of_world.to_owned(),
+        front,
+        front_of_world,
         shown(row.relative_time, &ratio),
         shown(row.error_mm, &error),
         shown(row.fine_mm, &error),
+        mismatched,
         shown(row.coverage, &|coverage| format!("{:.1} %", 100.0 * coverage)),
         shown(row.processor_s.filter(|time| *time > 0.0), &|time| format!("{:.0}", row.sim_s / time)),
         shown(least, &ratio),
@@ -53,11 +59,9 @@ fn cells(row: &ParetoRow) -> Vec<String> {
     ]
 }
 
-fn names(front: Front) -> &'static str {
-    match front {
-        Front { exact: true, fine: true } => "exact, fine",
-        Front { exact: true, fine: false } => "exact",
-        Front { exact: false, fine: true } => "fine",
-        Front { exact: false, fine: false } => "",
-    }
+/// The errors by which a setting is Pareto-optimal.
+fn names(front: Front) -> String {
+    let Front { exact, fine, mismatched, together } = front;
+    let named = [(exact, "exact"), (fine, "fine"), (mismatched, "mismatched"), (together, "together")];
+    named.iter().filter_map(|(is_on, name)| is_on.then_some(*name)).collect::<Vec<_>>().join(", ")
 }

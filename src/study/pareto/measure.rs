@@ -10,7 +10,8 @@ use super::row::{Front, ParetoRow};
 use super::setting::{FINE_LINKS, Setting, set_links};
 use super::{Pareto, front};
 use crate::geometry::unit;
-use crate::results::{Ending, policy_label};
+use crate::mismatch::Mismatch;
+use crate::results::{Ending, MismatchIdentity, policy_label};
 use crate::scene::{Scene, WorldKind};
 use crate::score::{Estimate, Statistics};
 use crate::study::estimators::evaluate;
@@ -20,8 +21,9 @@ use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 const START_OFFSET: f64 = 1e-3;
 
 /// Runs a policy in a scene `repeats` times under each of `settings`, one run at a time. The first setting is the
-/// default. Each round has every setting once, so that disturbances of the machine affect all of them. `progress`
-/// receives the setting of every run that is done.
+/// default. Each round has every setting once, so that disturbances of the machine affect all of them. The scene has no
+/// mismatch. At the end, every setting runs once more with `mismatch`, for its error with a wrong model of the array.
+/// `progress` receives the setting of every run that is done.
 ///
 /// In all settings perception assumes as many links as in the fine run. Otherwise an estimator that assumes a coarse
 /// chain would compensate for its error. Another contact estimator receives the samples of a run under the policy's
@@ -31,18 +33,20 @@ const START_OFFSET: f64 = 1e-3;
 /// [`ExecuteError`] if the first setting cannot run. Any other setting that cannot run counts as refused.
 pub fn measure(
     scene: &Scene,
+    mismatch: &Mismatch,
     program: &Arc<Program>,
     world: WorldKind,
     settings: &[Setting],
     repeats: usize,
     mut progress: impl FnMut(&Setting),
 ) -> Result<Pareto, ExecuteError> {
+    let scene = Scene { mismatch: None, ..scene.clone() };
     let mut firsts: Vec<Measured> = Vec::with_capacity(settings.len());
     let mut rounds: Vec<Vec<f64>> = Vec::with_capacity(repeats);
     for round in 0..repeats {
         let mut seconds = Vec::with_capacity(settings.len());
         for setting in settings {
-            let measured = match timed(scene, program, world, setting) {
+            let measured = match timed(&scene, program, world, setting) {
                 Err(cause) if seconds.is_empty() => return Err(cause),
                 measured => measured.unwrap_or_else(|cause| Measured::refused(&cause)),
             };
@@ -60,21 +64,25 @@ pub fn measure(
     displaced.start.position -= START_OFFSET * unit(scene.start.heading);
     let floor_mm =
         fine.as_ref().and_then(|fine| timed(&displaced, program, world, &Setting::fine()).ok()?.mean_distance(fine));
+    let wrong = Scene { mismatch: Some(mismatch.clone()), ..scene.clone() };
     let mut rows = Vec::with_capacity(settings.len());
     for (index, (setting, first)) in settings.iter().zip(&firsts).enumerate() {
         let seconds = |round: &Vec<f64>| round[index];
         let ratios = Statistics::of(rounds.iter().map(|round| seconds(round) / round[0]).collect());
         let seconds = Statistics::of(rounds.iter().map(seconds).collect());
         let figures = ratios.zip(seconds).filter(|_| first.ending != Ending::Refused);
-        let (scene, world) = setting.apply(scene, world);
+        let mismatched = timed(&wrong, program, world, setting).unwrap_or_else(|cause| Measured::refused(&cause));
+        progress(setting);
+        let (scene, world) = setting.apply(&scene, world);
         let fine_mm = fine.as_ref().and_then(|fine| first.mean_distance(fine));
-        rows.push(ParetoRow::new(setting, &scene, world, first, figures, fine_mm));
+        rows.push(ParetoRow::new(setting, (&scene, world), (first, &mismatched), figures, fine_mm));
     }
     mark(&mut rows);
     Ok(Pareto {
         scenario: scene.name.clone(),
         policy: policy_label(program),
         repeats,
+        mismatch: MismatchIdentity { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0) },
         contact_estimators: program.contact_estimators.iter().map(|kind| kind.name()).collect(),
         floor_mm,
         settings: rows,
@@ -152,13 +160,24 @@ fn re_estimated(trial: &Trial, kind: ContactEstimatorKind) -> Result<Measured, E
 /// Marks the Pareto-optimal rows, among all settings and among those of the same world.
 fn mark(rows: &mut [ParetoRow]) {
     let fronts = |world: Option<&str>| {
+        let counts = |row: &&ParetoRow| row.completed() && world.is_none_or(|world| row.world == world);
+        let counted = || rows.iter().map(|row| Some(row).filter(counts));
         let of = |error: fn(&ParetoRow) -> Option<f64>| {
-            let counts = |row: &&ParetoRow| row.completed() && world.is_none_or(|world| row.world == world);
-            let point = |row| Some(row).filter(counts).and_then(|row| Some((row.relative_time?, error(row)?)));
-            front(&rows.iter().map(point).collect::<Vec<_>>())
+            let point = |row: Option<&ParetoRow>| Some([row?.relative_time?, error(row?)?]);
+            front(&counted().map(point).collect::<Vec<_>>())
         };
-        let fronts = of(|row| row.error_mm).into_iter().zip(of(|row| row.fine_mm));
-        fronts.map(|(exact, fine)| Front { exact, fine }).collect::<Vec<_>>()
+        let [exact, fine, mismatched] =
+            [of(|row| row.error_mm), of(|row| row.fine_mm), of(ParetoRow::completed_mismatched_mm)];
+        let point =
+            |row: Option<&ParetoRow>| Some([row?.relative_time?, row?.error_mm?, row?.completed_mismatched_mm()?]);
+        let together = front(&counted().map(point).collect::<Vec<_>>());
+        let front = |index| Front {
+            exact: exact[index],
+            fine: fine[index],
+            mismatched: mismatched[index],
+            together: together[index],
+        };
+        (0..rows.len()).map(front).collect::<Vec<_>>()
     };
     let of_all = fronts(None);
     let of_worlds = WorldKind::ALL.map(|world| fronts(Some(world.name())));

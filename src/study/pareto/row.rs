@@ -1,9 +1,8 @@
 //! Run time and error of one setting.
 
-use crate::results::Document;
 use serde::Serialize;
 
-use crate::results::Ending;
+use crate::results::{Document, Ending, MismatchIdentity};
 use crate::scene::{Scene, WorldKind};
 use crate::score::Statistics;
 
@@ -21,7 +20,9 @@ pub struct Pareto {
     /// Its contact estimators, whisker by whisker.
     #[serde(rename = "tip_models")]
     pub contact_estimators: Vec<&'static str>,
-    /// Number of runs of every setting.
+    /// The mismatch of the runs with a wrong model of the array.
+    pub mismatch: MismatchIdentity,
+    /// Number of runs of every setting with the right model.
     pub repeats: usize,
     /// Mean distance (mm) between the tips of a second fine run, from a start 1 mm behind, and the contour of the fine
     /// run. Smaller differences are not significant.
@@ -71,6 +72,10 @@ pub struct ParetoRow {
     pub error_mm: Option<f64>,
     /// Mean distance of the tips from the contour that the fine run estimated. `None` for another contact estimator.
     pub fine_mm: Option<f64>,
+    /// Outcome of the run with a wrong model of the array.
+    pub mismatched_outcome: Ending,
+    /// Mean distance of the tips of this run from the exact contour.
+    pub mismatched_mm: Option<f64>,
     /// Share of the exact contour that was traced, 0 to 1. `None` for another contact estimator.
     pub coverage: Option<f64>,
     /// True if the setting is Pareto-optimal among all settings.
@@ -82,16 +87,27 @@ pub struct ParetoRow {
 /// Pareto-optimality of a setting by either error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
+#[expect(clippy::struct_excessive_bools, reason = "one for each error that is compared")]
 pub struct Front {
     /// By the error against the exact contour.
     pub exact: bool,
     /// By the error against the fine run.
     pub fine: bool,
+    /// By the error against the exact contour with a wrong model of the array.
+    pub mismatched: bool,
+    /// By both errors against the exact contour together, with the right and with a wrong model of the array. No other
+    /// setting is at least as good in run time and both errors, and better in one of the three.
+    pub together: bool,
 }
 
 impl Front {
     pub(super) fn or(self, other: Self) -> Self {
-        Self { exact: self.exact || other.exact, fine: self.fine || other.fine }
+        Self {
+            exact: self.exact || other.exact,
+            fine: self.fine || other.fine,
+            mismatched: self.mismatched || other.mismatched,
+            together: self.together || other.together,
+        }
     }
 }
 
@@ -101,13 +117,17 @@ impl ParetoRow {
         self.outcome == Ending::Completed
     }
 
-    /// The row of a setting. `scene` and `world` are the result of the setting. `figures` has the statistics of
-    /// relative and absolute times (s).
+    /// The error (mm) with a wrong model of the array, if that run completed.
+    pub(crate) fn completed_mismatched_mm(&self) -> Option<f64> {
+        self.mismatched_mm.filter(|_| self.mismatched_outcome == Ending::Completed)
+    }
+
+    /// The row of a setting. `scene` and `world` are the result of the setting. There are a run with the right model and
+    /// one with a wrong model of the array. `figures` has the statistics of relative and absolute times (s).
     pub(super) fn new(
         setting: &Setting,
-        scene: &Scene,
-        world: WorldKind,
-        first: &Measured,
+        (scene, world): (&Scene, WorldKind),
+        (first, mismatched): (&Measured, &Measured),
         figures: Option<(Statistics, Statistics)>,
         fine_mm: Option<f64>,
     ) -> Self {
@@ -131,6 +151,8 @@ impl ParetoRow {
             relative_time_range: ratios.map(|ratios| [ratios.percentile(0.0), ratios.max()]),
             error_mm: first.error_mm,
             fine_mm,
+            mismatched_outcome: mismatched.ending,
+            mismatched_mm: mismatched.error_mm,
             coverage: first.coverage,
             on_front: Front::default(),
             on_front_of_world: Front::default(),

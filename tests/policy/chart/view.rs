@@ -22,7 +22,7 @@ fn names(chart: &Chart) -> Vec<&str> {
 }
 
 /// The ends of a transition by names.
-fn ends<'c>(chart: &'c Chart, transition: &Transition) -> (&'c str, &'c str) {
+fn ends<'c>(chart: &'c Chart, transition: &'c Transition) -> (&'c str, &'c str) {
     let name = |state: usize| chart.states[state].name.as_str();
     let from = match transition.origin {
         Origin::AnyState => "any state",

@@ -5,7 +5,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::calibrate::{CONFIG, counts, sets};
+use super::calibrate::{CONFIG, TOUCHES, counts, sets};
 use super::program::{directory, stderr, stdout, vibrissa};
 
 const LIBRARY: &str = "library laws\nlet still(w: whisker) = not w.touching\n";
@@ -39,6 +39,7 @@ pub(super) fn folder(name: &str) -> PathBuf {
         ("measured.csv", &sets()),
         ("counts.csv", &counts()),
         ("array.yaml", CONFIG),
+        ("pressed.csv", TOUCHES),
     ] {
         fs::write(folder.join(name), text).unwrap();
     }
@@ -77,6 +78,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "quick.fsm", "OUT", "--record"),
     ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "scene.yaml", "OUT", "--record"),
     ("calibrate @/measured.csv --out @", "measured.csv", "sets.csv", "--out"),
+    ("calibrate --touches @/pressed.csv --out @", "pressed.csv", "touches.csv", "--out"),
+    ("calibrate --touches @/pressed.csv --out @", "pressed.csv", "l0.yaml", "--out"),
     ("calibrate @/measured.csv --rig @/scene.yaml --out @", "scene.yaml", "calibration.yaml", "--out"),
     ("calibrate @/measured.csv --rig @/scene.yaml --out @", "r0.yaml", "profile.svg", "--out"),
     (
@@ -99,8 +102,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
         "results.jsonl",
         "--out",
     ),
-    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "scene.yaml", "scene-pareto.json", "--out"),
-    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "laws.fsm", "scene-pareto.svg", "--out"),
+    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "scene.yaml", "scene-quick-pareto.json", "--out"),
+    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "laws.fsm", "scene-quick-pareto.svg", "--out"),
     ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @", "laws.fsm", "results.jsonl", "--out"),
     ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @ --write @/OUT", "quick.fsm", "OUT", "--write"),
     ("sweep @/small.yaml --out @", "small.yaml", "results.jsonl", "--out"),
@@ -122,6 +125,7 @@ fn no_command_writes_to_what_it_reads_under_any_name_or_link() {
         "measured.csv",
         "counts.csv",
         "array.yaml",
+        "pressed.csv",
         "prop.fsm",
         "prop.regressions.yaml",
     ];

@@ -1,10 +1,13 @@
 //! What a run tells of every tick.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::runs::{arc_of_tips, run_with};
 use serde_json::{Value, json};
 use vibrissa::geometry::{Point2, Vector2};
 use vibrissa::results::tick_lines;
 use vibrissa::run::{Contact, MarkRecord, Run};
+use vibrissa::score::InclinationFigures;
 use vibrissa_runtime::machine::Mark;
 
 /// A run of one whisker that recorded in every tick but the first.
@@ -14,8 +17,11 @@ fn run() -> Run {
     run_with(&[tips])
 }
 
+/// The coefficient of friction that perception assumes.
+const FRICTION: f64 = 0.1;
+
 fn lines(run: &Run) -> Vec<Value> {
-    tick_lines("box", &run.trace).map(|line| serde_json::to_value(line).unwrap()).collect()
+    tick_lines("box", &run.trace, FRICTION).map(|line| serde_json::to_value(line).unwrap()).collect()
 }
 
 #[test]
@@ -69,4 +75,38 @@ fn a_run_that_failed_has_no_state_at_its_end() {
     let mut run = run();
     run.trace.ticks.last_mut().unwrap().state = None;
     assert_eq!(lines(&run).last().unwrap()["state"], Value::Null);
+}
+
+#[test]
+fn a_tick_has_the_margin_of_its_inclination() {
+    let mut run = run();
+    run.trace.ticks[1].contacts[0].inclination = Some(100_f64.to_radians());
+    let lines = lines(&run);
+    let told = |tick: usize, key: &str| lines[tick]["whiskers"][0][key].as_f64();
+    assert_eq!(told(0, "inclination_margin_rad"), None);
+    let sum = told(1, "inclination_rad").unwrap() + told(1, "inclination_margin_rad").unwrap();
+    assert!((sum - FRAC_PI_2 - FRICTION.atan()).abs() < 1e-12, "{sum}");
+}
+
+/// The law of record 0142 in a whole run: where, when and in which state its margin is least, and who breaks it.
+#[test]
+fn a_result_has_the_least_margin_and_the_states_beyond_the_limit() {
+    let mut run = run();
+    let inclinations = [None, Some(80.0), Some(100.0), Some(110.0), Some(95.0)];
+    for (tick, inclination) in run.trace.ticks.iter_mut().zip(inclinations) {
+        tick.contacts[0].inclination = inclination.map(f64::to_radians);
+        tick.contacts[0].tip_world = Some(Point2::new(tick.time, 2.0));
+    }
+    let figures = InclinationFigures::of(&run.trace, FRICTION).unwrap();
+    let ticks = &run.trace.ticks;
+    assert_eq!(
+        (figures.largest.whisker, figures.largest.time, figures.largest.state),
+        (0, ticks[3].time, ticks[3].state)
+    );
+    assert_eq!(figures.largest.tip_world, ticks[3].contacts[0].tip_world);
+    assert!((figures.margin.to_degrees() - (FRICTION.atan().to_degrees() - 20.0)).abs() < 1e-9);
+    // 95 deg is within the limit, which friction moves to 95.7 deg.
+    assert!((figures.beyond - 2.0 * run.trace.period).abs() < 1e-12);
+    assert_eq!(figures.beyond_by_state.values().sum::<f64>(), figures.beyond);
+    assert!(InclinationFigures::of(&run.trace, 1.0).unwrap().beyond_by_state.is_empty());
 }

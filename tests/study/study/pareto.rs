@@ -5,6 +5,7 @@ use std::sync::Arc;
 use vibrissa::built_in::{DEFAULT_POLICY, SCENARIOS};
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Vector2, unit};
+use vibrissa::mismatch::{Mismatch, Property};
 use vibrissa::policy::{compile, gather};
 use vibrissa::report::{pareto_picture, pareto_table};
 use vibrissa::results::Ending;
@@ -22,11 +23,18 @@ fn program() -> Arc<Program> {
     Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap())
 }
 
+/// An array whose whiskers are stiffer than perception knows.
+fn stiff() -> Mismatch {
+    let mut mismatch = Mismatch::default();
+    mismatch.common.set(Property::Stiffness, 0.05);
+    mismatch
+}
+
 /// What comes of the default and some other changes.
 fn measured(world: WorldKind, changes: &[&[Change]]) -> Pareto {
     let others = changes.iter().map(|changes| Setting(changes.to_vec()));
     let settings: Vec<_> = [Setting::unchanged()].into_iter().chain(others).collect();
-    measure(&disk(), &program(), world, &settings, 1, |_| ()).unwrap()
+    measure(&disk(), &stiff(), &program(), world, &settings, 1, |_| ()).unwrap()
 }
 
 /// What takes less time is farther off. Less work is fewer links or fewer steps: how long either takes need not be known for that.
@@ -75,6 +83,13 @@ fn settings_are_measured_against_the_default_and_the_exact_contour_and_drawn() {
     // The same perception of the same samples, once in the loop and once after it.
     assert!((same_model.error_mm.unwrap() - default.error_mm.unwrap()).abs() < 1e-9);
     assert!(pareto.settings.iter().any(|row| row.on_front.exact));
+    // Optimal by one of the errors and by no other setting's equal one is optimal by both together.
+    assert!(pareto.settings.iter().any(|row| row.on_front.mismatched && row.on_front.together));
+    // With a wrong stiffness, whichever simulator and estimator.
+    for row in &pareto.settings {
+        assert_eq!(row.mismatched_outcome, Ending::Completed, "{}", row.setting);
+        assert!(row.mismatched_mm > row.error_mm.map(|error| error + 0.1), "{}", row.setting);
+    }
     // There was no fine run.
     assert!(pareto.floor_mm.is_none() && pareto.settings.iter().all(|row| row.fine_mm.is_none() && !row.on_front.fine));
     let table = pareto_table(&pareto).wide();
@@ -96,7 +111,7 @@ fn a_default_that_cannot_be_run_is_an_error_and_of_the_others_one_that_cannot_is
     let outward = Vector2::new(rise(Vector2::x()), rise(Vector2::y())).normalize();
     scene.start.position -= (distance(Vector2::zeros()) + 0.1e-3) * outward;
     let settings = [Setting::unchanged(), Setting(vec![Change::World(WorldKind::QuasiStatic)])];
-    let of = |world| measure(&scene, &program(), world, &settings, 1, |_| ());
+    let of = |world| measure(&scene, &stiff(), &program(), world, &settings, 1, |_| ());
     assert!(of(WorldKind::QuasiStatic).is_err());
     if cfg!(feature = "sim") {
         let pareto = of(WorldKind::Mujoco).unwrap();

@@ -250,14 +250,26 @@ pub(super) fn pareto(outputs: &[Json]) -> Result<String, NoKey> {
         Column("relative time", "relative_time", Fixed(2)),
         Column("exact error, mm", "error_mm", Fixed(4)),
         Column("fine error, mm", "fine_mm", Fixed(4)),
+        Column("run with mismatch", "mismatched_outcome", Plain),
+        Column("mismatched error, mm", "mismatched_mm", Fixed(2)),
         Column("Pareto-optimal by exact error", "on_front.exact", Plain),
         Column("by fine error", "on_front.fine", Plain),
+        Column("by mismatched error", "on_front.mismatched", Plain),
+        Column("by exact and mismatched error together", "on_front.together", Plain),
         Column("in its simulator by exact error", "on_front_of_world.exact", Plain),
         Column("by fine error there", "on_front_of_world.fine", Plain),
     ];
-    let floor = Fixed(4).text(value(&outputs[0], "floor_mm")?);
-    let table = table(value(&outputs[0], "settings")?.items(), &columns)?;
-    Ok(format!("\n{table}\nThe fine run from a start 1 mm farther back differs by {floor} mm.\n"))
+    let mut page = String::new();
+    for pareto in outputs[0].items() {
+        let policy = text(pareto, "policy")?;
+        let floor = Fixed(4).text(value(pareto, "floor_mm")?);
+        let table = table(value(pareto, "settings")?.items(), &columns)?;
+        let _ = write!(
+            page,
+            "\n## `{policy}.fsm`\n\n{table}\nThe fine run from a start 1 mm farther back differs by {floor} mm.\n"
+        );
+    }
+    Ok(page)
 }
 
 pub(super) fn stress(outputs: &[Json]) -> Result<String, NoKey> {
