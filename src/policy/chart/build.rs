@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::diagnostic::{Source, Span};
+use crate::diagnostic::Source;
 use crate::policy::ast::{self, File};
 use crate::policy::lower::SUCCESS;
 
@@ -34,7 +34,7 @@ struct Builder<'f> {
 impl Builder<'_> {
     fn state(&self, index: usize, state: &ast::State, file: &File) -> State {
         let arguments = state.arguments.iter().map(|argument| {
-            let type_name = self.text(argument.type_name.span());
+            let type_name = self.source.on_one_line(argument.type_name.span());
             Argument { name: argument.name.text.clone(), type_name }
         });
         let outer = state.parent.map(|parent| &file.states[parent]);
@@ -77,10 +77,10 @@ impl Builder<'_> {
     fn guard(&self, guard: &ast::Guard) -> Guard {
         match guard {
             ast::Guard::When { condition, lasting } => Guard::When {
-                condition: self.text(condition.span),
-                lasting: lasting.as_ref().map(|time| self.text(time.span)),
+                condition: self.source.on_one_line(condition.span),
+                lasting: lasting.as_ref().map(|time| self.source.on_one_line(time.span)),
             },
-            ast::Guard::After(time) => Guard::After(self.text(time.span)),
+            ast::Guard::After(time) => Guard::After(self.source.on_one_line(time.span)),
         }
     }
 
@@ -105,13 +105,6 @@ impl Builder<'_> {
     }
 
     fn texts(&self, expressions: &[ast::Expression]) -> Vec<String> {
-        expressions.iter().map(|expression| self.text(expression.span)).collect()
-    }
-
-    /// The text of an expression or a type, without comments, on one line with single blanks.
-    fn text(&self, span: Span) -> String {
-        // Expressions contain no strings, so every `#` begins a comment.
-        let lines = self.source.slice(span).lines().map(|line| line.split('#').next().unwrap_or_default());
-        lines.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+        expressions.iter().map(|expression| self.source.on_one_line(expression.span)).collect()
     }
 }

@@ -34,6 +34,7 @@ use hierarchy::Hierarchy;
 use names::Names;
 use scope::{Meaning, Scope};
 
+pub(super) use code::{Origin, Origins};
 pub(super) use scope::is_reserved;
 pub(super) use structure::SUCCESS;
 
@@ -43,6 +44,17 @@ pub(super) struct Lowered {
     pub(super) tests: Vec<PolicyTest>,
     /// The arguments of each state: names, types and registers.
     pub(super) arguments: Vec<Vec<(String, Value)>>,
+    /// The memory of the machine, and for each state its arguments and memory.
+    pub(super) memory: Memory,
+    /// The expressions whose values are in the registers.
+    pub(super) origins: Origins,
+}
+
+/// The values that a running machine keeps from tick to tick: names, types and registers.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    pub(super) machine: Vec<(String, Value)>,
+    pub(super) states: Vec<Vec<(String, Value)>>,
 }
 
 /// The types of names, by the span of their declaration.
@@ -75,7 +87,8 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
         Some(program) if diagnostics.is_empty() => {
             let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
-            Ok(Lowered { program, tests, arguments: arguments.collect() })
+            let (memory, origins) = (compiler.memory, compiler.code.origins);
+            Ok(Lowered { program, tests, arguments: arguments.collect(), memory, origins })
         }
         _ => Err(diagnostics),
     }
@@ -126,6 +139,7 @@ struct Compiler<'f> {
     types: Option<Types>,
     states: HashMap<&'f str, StateEntry>,
     hierarchy: Hierarchy<'f>,
+    memory: Memory,
     /// Declarations of laws and derived values with errors.
     erroneous: HashSet<Span>,
     /// Laws and derived values that are being inlined.
@@ -162,6 +176,7 @@ impl<'f> Compiler<'f> {
             types: None,
             states: HashMap::new(),
             hierarchy: Hierarchy::default(),
+            memory: Memory::default(),
             erroneous: HashSet::new(),
             inlining: Vec::new(),
             state_body: &[],

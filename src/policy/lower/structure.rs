@@ -64,6 +64,8 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     // The registers of all arguments must exist before any transition is lowered.
     compiler.hierarchy = Hierarchy::new(&file.states);
     let declared = compiler.declare(file, &scope);
+    compiler.memory.machine = known(scope.since(0));
+    compiler.memory.states = declared.iter().map(|names| known(names.clone())).collect();
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
     let fallback = compiler.failsafe(&scope, None, &file.failsafes);
@@ -97,6 +99,11 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         initial_registers: std::mem::take(&mut compiler.code.initial),
         timers,
     })
+}
+
+/// The names with a value.
+fn known(names: Vec<(&Name, Meaning)>) -> Vec<(String, Value)> {
+    names.into_iter().filter_map(|(name, meaning)| Some((name.text.clone(), meaning?))).collect()
 }
 
 impl<'f> Compiler<'f> {
