@@ -67,7 +67,7 @@
 //! | input texts and their errors | [`scenario`], [`policy`], [`outline`], [`diagnostic`], [`built_in`] |
 //! | scenes and exact geometry | [`scene`], [`solid`], [`geometry`], [`physics`] |
 //! | simulators | [`world`], [`mujoco`], [`quasi_static`] |
-//! | runs and their evaluation | [`trial`], [`run`], [`score`], [`results`] |
+//! | runs and their evaluation | [`trial`], [`run`], [`score`], [`results`], [`inspect`] |
 //! | many runs | [`study`], [`family`], [`sweep`], [`tune`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
@@ -114,6 +114,7 @@ pub mod emulated;
 pub mod family;
 mod file;
 pub mod geometry;
+pub mod inspect;
 mod load;
 pub mod mismatch;
 pub mod mujoco;

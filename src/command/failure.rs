@@ -39,6 +39,10 @@ pub(super) enum Failure {
     Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{} is a compiled machine, which has no tests; test its policy", policy.display())]
     NoText { policy: PathBuf },
+    #[error(
+        "the policy `{name}` is a compiled machine, whose guards have no text; give its policy to use --break or --transitions"
+    )]
+    NoTextToInspect { name: String },
     #[error("no test has `{filter}` in its title; leave out --filter to run them all")]
     NoSuchTest { filter: String },
     #[error(transparent)]

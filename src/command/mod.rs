@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod compile;
 mod completions;
+mod diff;
 mod drive;
 mod estimators;
 mod exit;
@@ -15,6 +16,7 @@ mod failure;
 mod families;
 mod fmt;
 mod graph;
+mod inspect;
 mod keep;
 mod lsp;
 mod man;
@@ -73,6 +75,8 @@ enum Command {
     Families(families::FamiliesArguments),
     /// Compare policies over the same runs
     Compare(compare::CompareArguments),
+    /// Find the first tick in which two policies differ, and why
+    Diff(diff::DiffArguments),
     /// Run a parameter sweep in worker processes. An interrupted sweep can be resumed
     Sweep(sweep::SweepArguments),
     /// Tune parameters of a policy over scenes. An interrupted tuning can be resumed
@@ -142,6 +146,7 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Bench(arguments) => bench::bench(arguments),
         Command::Families(arguments) => families::families(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
+        Command::Diff(arguments) => diff::diff(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Tune(arguments) => tune::tune(arguments),
         Command::Merge(arguments) => merge::merge(arguments),

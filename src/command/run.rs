@@ -10,11 +10,13 @@ use sha2::Digest;
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::inspect::{InspectionOptions, inspect};
 use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::trials::{ReportFiles, extended, inputs, make_directory, report_events, run_with_bar};
 use super::values::parse_seed;
 use super::watch::watch;
+use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::load::{self, GivenMismatch, Loaded};
 use crate::report::results_table;
@@ -49,7 +51,9 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "FILE", conflicts_with = "watch")]
     ticks: Option<PathBuf>,
     #[command(flatten)]
-    format: Format,
+    pub(super) inspection: InspectionOptions,
+    #[command(flatten)]
+    pub(super) format: Format,
     /// Run again whenever a scenario or policy is saved, and print a line for every simulated second
     #[arg(long, conflicts_with = "json")]
     watch: bool,
@@ -59,6 +63,9 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     if arguments.watch {
         return watch(arguments);
+    }
+    if arguments.inspection.is_given() {
+        return inspect(arguments, &mut files);
     }
     let trials = trials(arguments, &mut files)?;
     let reports = reports(&trials, arguments.out.as_deref(), &mut files)?;
@@ -87,13 +94,22 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
 /// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first
 /// trial runs.
 pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
+    Ok(trials_with_texts(arguments, files)?.into_iter().map(|(trial, _)| trial).collect())
+}
+
+/// The [`trials`], each with the text of its policy. A compiled machine has none.
+pub(super) fn trials_with_texts(
+    arguments: &RunArguments,
+    files: &mut CommandFiles,
+) -> Result<Vec<(Trial, Option<Source>)>, Failure> {
     let mut warned = BTreeSet::new();
     let mismatch = arguments.mismatch.load(files)?;
     let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, &mismatch, files, &mut warned));
     let trials = trials.collect::<Result<Vec<_>, _>>()?;
     // Reports are named after scenarios.
-    for (index, trial) in trials.iter().enumerate() {
-        if let Some(first) = trials[..index].iter().find(|first| first.scene.name == trial.scene.name) {
+    for (index, (trial, _)) in trials.iter().enumerate() {
+        let mut before = trials[..index].iter().map(|(before, _)| before);
+        if let Some(first) = before.find(|first| first.scene.name == trial.scene.name) {
             let [first, second] = [first, trial].map(|trial| trial.inputs.scenario.clone());
             return Err(Failure::SameName { first, second, name: trial.scene.name.clone() });
         }
@@ -107,7 +123,7 @@ fn trial(
     mismatch: &GivenMismatch,
     files: &mut CommandFiles,
     warned: &mut BTreeSet<String>,
-) -> Result<Trial, Failure> {
+) -> Result<(Trial, Option<Source>), Failure> {
     let before = Instant::now();
     let source = load::read(path, files)?;
     let Loaded { value: mut scene, hash: mut scenario_hash } = load::scenario_in(&source, files)?;
@@ -124,7 +140,8 @@ fn trial(
     let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash.finalize());
     output::warn_of_rates(path, &scene.rig, &policy.artifact.program);
     let trial = Trial { world, seed, ..Trial::new(scene, Arc::new(policy.artifact.program)) };
-    Ok(Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial })
+    let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
+    Ok((trial, policy.text.map(|text| text.source)))
 }
 
 /// Makes the directory for reports, and returns the files of the reports in it.

@@ -5,6 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
 use crate::family::FamilyRun;
+use crate::inspect::{PolicyDifference, StopRecord, TransitionLine};
 use crate::mujoco::Pruning;
 use crate::results::{Document, DriveResult, ReplayResult, RunResult, TickLine, Versioned};
 use crate::study::bench::BenchRow;
@@ -36,6 +37,9 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<DriveResult>(),
         schema::<ReplayResult>(),
         schema::<TickLine<'static>>(),
+        schema::<TransitionLine>(),
+        schema::<StopRecord>(),
+        schema::<PolicyDifference>(),
         schema::<BenchRow>(),
         schema::<TimingRow>(),
         schema::<WorldsRow>(),

@@ -132,6 +132,14 @@ impl Source {
         &self.text[self.clamp(span)]
     }
 
+    /// The text of an expression or a type, without comments, on one line with single blanks.
+    #[must_use]
+    pub(crate) fn on_one_line(&self, span: Span) -> String {
+        // Expressions contain no strings, so every `#` begins a comment.
+        let lines = self.slice(span).lines().map(|line| line.split('#').next().unwrap_or_default());
+        lines.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+    }
+
     /// The span, limited to the text, to the part in which it begins, and to whole characters.
     pub(super) fn clamp(&self, span: Span) -> Range<usize> {
         let start = self.text.floor_char_boundary(span.start);

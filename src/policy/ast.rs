@@ -285,6 +285,16 @@ pub(super) enum Guard {
     After(Expression),
 }
 
+impl Guard {
+    /// Span of the condition or the time, without the time of `for`.
+    pub(super) fn span(&self) -> Span {
+        match self {
+            Self::When { condition, .. } => condition.span,
+            Self::After(time) => time.span,
+        }
+    }
+}
+
 /// `Name(values)`: a state and the values of its arguments.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {

@@ -42,16 +42,16 @@ pub(super) struct Expanded {
 impl Expanded {
     /// The name of a state in the whole machine: `Following.Swiping`.
     pub(super) fn path(&self, state: usize) -> String {
-        self.states.get(state).map_or_else(String::new, |state| {
-            format!("{}{}", self.instances[state.instance].prefix, state.name.text)
-        })
+        self.states
+            .get(state)
+            .map_or_else(String::new, |state| format!("{}{}", self.instances[state.instance].prefix, state.name.text))
     }
 
     /// True if a state is the outermost one of a copy of a behaviour.
     pub(super) fn is_root(&self, state: usize) -> bool {
-        self.states.get(state).is_some_and(|state| {
-            state.parent.is_some_and(|parent| self.states[parent].instance != state.instance)
-        })
+        self.states
+            .get(state)
+            .is_some_and(|state| state.parent.is_some_and(|parent| self.states[parent].instance != state.instance))
     }
 }
 
@@ -141,15 +141,18 @@ impl<'f> Expansion<'f> {
         if self.open.contains(&behaviour.name.span) {
             let message = format!("the behaviour `{}` uses itself", used.name.text);
             let fault = Diagnostic::error("P0401", message, used.name.span, "used within itself");
-            self.report(fault.note(behaviour.name.span, "declared here").hint(
-                "recursion is not possible, because the work of a tick is bounded; use transitions instead",
-            ));
+            self.report(
+                fault
+                    .note(behaviour.name.span, "declared here")
+                    .hint("recursion is not possible, because the work of a tick is bounded; use transitions instead"),
+            );
             return;
         }
         self.check_connections(state, behaviour, used);
         self.copied += behaviour.span.end - behaviour.span.start;
         if self.copied > COPIED_LIMIT {
-            let fault = Diagnostic::error("P0402", "the compiled policy is too large", used.span, "exceeds the limit here");
+            let fault =
+                Diagnostic::error("P0402", "the compiled policy is too large", used.span, "exceeds the limit here");
             self.report(fault.hint("a behaviour is copied at every use; use it in fewer places"));
             return;
         }
@@ -231,7 +234,9 @@ impl<'f> Expansion<'f> {
         if let Some(span) = misplaced_exit {
             let message = "only a behaviour has exits";
             let fault = Diagnostic::error("P0420", message, span, "in a state");
-            self.report(fault.hint("write statements in braces, `exit { \u{2026} }`, or declare the exit in the braces of a behaviour"));
+            self.report(fault.hint(
+                "write statements in braces, `exit { \u{2026} }`, or declare the exit in the braces of a behaviour",
+            ));
         }
         if let Some(connection) = state.connections.first().filter(|_| state.behaviour.is_none()) {
             let message = format!("the state `{}` has no behaviour whose exits it could connect", state.name.text);
@@ -256,7 +261,8 @@ impl<'f> Expansion<'f> {
             let mut connections = state.connections.iter().filter(|connection| connection.exit.text == exit.name.text);
             let Some(first) = connections.next() else {
                 let (name, exit_name) = (&behaviour.name.text, &exit.name.text);
-                let message = format!("the state `{}` does not connect the exit `{exit_name}` of `{name}`", state.name.text);
+                let message =
+                    format!("the state `{}` does not connect the exit `{exit_name}` of `{name}`", state.name.text);
                 let names: Vec<&str> = exit.arguments.iter().map(|argument| argument.name.text.as_str()).collect();
                 let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
                 let fault = Diagnostic::error("P0421", message, used.name.span, "has this exit");

@@ -6,6 +6,7 @@
 //! - `lower` checks names, types and units, and generates code.
 //! - `analysis` finds probable mistakes in the tree and the code.
 //! - `optimise` shortens the code.
+//! - `explain` relates the guards of a running program to their texts.
 //! - `format` formats texts. `description` reads comments of items. `index` answers questions of editors.
 //! - `builtins` has the tables of members and functions. `docs/language.md` describes the language for users.
 
@@ -17,6 +18,7 @@ pub mod chart;
 mod defaults;
 mod description;
 mod expand;
+pub mod explain;
 mod foreign_syntax;
 mod format;
 mod grammar;

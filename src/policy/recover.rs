@@ -18,8 +18,23 @@ const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
 const ITEM_WORDS: [&str; 17] = [
-    "type", "whisker", "needs", "param", "initial", "let", "law", "state", "behaviour", "monitor", "always", "failsafe", "use",
-    "test", "property", "machine", "library",
+    "type",
+    "whisker",
+    "needs",
+    "param",
+    "initial",
+    "let",
+    "law",
+    "state",
+    "behaviour",
+    "monitor",
+    "always",
+    "failsafe",
+    "use",
+    "test",
+    "property",
+    "machine",
+    "library",
 ];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];

@@ -16,8 +16,21 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
 const ITEM_WORDS: [&str; 15] = [
-    "machine", "library", "use", "whisker", "needs", "type", "param", "initial", "law", "state", "behaviour", "monitor",
-    "always", "test", "property",
+    "machine",
+    "library",
+    "use",
+    "whisker",
+    "needs",
+    "type",
+    "param",
+    "initial",
+    "law",
+    "state",
+    "behaviour",
+    "monitor",
+    "always",
+    "test",
+    "property",
 ];
 
 /// The diagnostic for an error of pest.

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use crate::scene::{Outcome, Stop};
 use crate::world::World;
 use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Observer;
 use vibrissa_runtime::signal::Command;
 
 use super::monitor::Monitor;
@@ -31,14 +32,31 @@ pub struct Run {
     pub tick_times: Vec<Duration>,
 }
 
-/// Runs `control` in `world` until `stop`. `progress` receives the trace at every tick, and may stop the run. Then the
-/// result is `None`.
+/// Watches a run, and may stop it.
+pub trait Watcher: Observer {
+    /// Receives the trace after every tick.
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()>;
+}
+
+/// A watcher that receives the trace alone.
+#[derive(Debug)]
+pub struct Progress<F>(pub F);
+
+impl<F> Observer for Progress<F> {}
+
+impl<F: FnMut(&Trace) -> ControlFlow<()>> Watcher for Progress<F> {
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        (self.0)(trace)
+    }
+}
+
+/// Runs `control` in `world` until `stop`. `watcher` may stop the run earlier. Then the result is `None`.
 pub fn drive(
     world: &mut dyn World,
     mut control: Control,
     stop: &Stop,
     period: f64,
-    mut progress: impl FnMut(&Trace) -> ControlFlow<()>,
+    watcher: &mut impl Watcher,
 ) -> Option<Run> {
     let mut monitor = Monitor::new(&control, stop, period);
     let mut command = Command::STOP;
@@ -48,11 +66,11 @@ pub fn drive(
             Err(fault) => break monitor.crashed(&fault),
         };
         let before_tick = Instant::now();
-        let (next, ticked) = control.tick(samples);
+        let (next, ticked) = control.tick_observed(samples, watcher);
         monitor.tick_took(before_tick.elapsed());
         command = next;
         let ending = monitor.observe(&control, command, &ticked, world);
-        if progress(monitor.trace()).is_break() {
+        if watcher.after_tick(monitor.trace()).is_break() {
             return None;
         }
         if let Some(ending) = ending {

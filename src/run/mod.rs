@@ -5,6 +5,6 @@ mod monitor;
 mod stall_watch;
 mod trace;
 
-pub use drive::{Run, drive};
+pub use drive::{Progress, Run, Watcher, drive};
 pub use monitor::{Ending, Monitor};
 pub use trace::{Contact, MarkRecord, TickRecord, Trace};

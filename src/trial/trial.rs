@@ -14,7 +14,7 @@ use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
 use crate::results::{Hashes, Identity, MismatchIdentity, RunResult, policy_label};
-use crate::run::{Run, Trace, drive};
+use crate::run::{Progress, Run, Trace, Watcher, drive};
 use crate::scene::{Scene, Violation, WorldSetup};
 use crate::score::Score;
 use crate::world::{TrueTips, World};
@@ -105,6 +105,14 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the run cannot begin, or if `progress` stopped it.
     pub fn run_with(&self, progress: impl FnMut(&Trace) -> ControlFlow<()>) -> Result<TrialResult, ExecuteError> {
+        self.run_watched(&mut Progress(progress))
+    }
+
+    /// Runs and scores the trial. `watcher` receives every tick and the guards of the machine, and may stop the run.
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the run cannot begin, or if `watcher` stopped it.
+    pub fn run_watched(&self, watcher: &mut impl Watcher) -> Result<TrialResult, ExecuteError> {
         let before = Instant::now();
         let world = std::thread::scope(|scope| {
             let prepare = || Perception::prepare(&self.assumed_rig, &self.program.contact_estimators);
@@ -115,7 +123,7 @@ impl Trial {
         let control = self.control()?;
         let mut world = world?;
         let built = before.elapsed();
-        let mut run = self.drive(control, world.as_mut(), progress)?;
+        let mut run = self.drive(control, world.as_mut(), watcher)?;
         run.start += built + self.inputs.preparation;
         Ok(self.scored(run))
     }
@@ -125,7 +133,7 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the rig does not have what the policy needs.
     pub fn run_in(&self, world: &mut dyn World) -> Result<TrialResult, ExecuteError> {
-        let run = self.drive(self.control()?, world, |_| ControlFlow::Continue(()))?;
+        let run = self.drive(self.control()?, world, &mut Progress(|_: &Trace| ControlFlow::Continue(())))?;
         Ok(self.scored(run))
     }
 
@@ -154,14 +162,9 @@ impl Trial {
         Ok(Control::simulated(&self.assumed_rig, Arc::clone(&self.program))?)
     }
 
-    fn drive(
-        &self,
-        control: Control,
-        world: &mut dyn World,
-        progress: impl FnMut(&Trace) -> ControlFlow<()>,
-    ) -> Result<Run, ExecuteError> {
+    fn drive(&self, control: Control, world: &mut dyn World, watcher: &mut impl Watcher) -> Result<Run, ExecuteError> {
         let period = self.scene.rig.sensing.control_rate.recip();
-        drive(world, control, &self.scene.stop, period, progress).ok_or(ExecuteError::Interrupted)
+        drive(world, control, &self.scene.stop, period, watcher).ok_or(ExecuteError::Interrupted)
     }
 
     /// Scores a run of this trial.

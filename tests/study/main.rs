@@ -5,6 +5,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod inspect;
 mod report;
 mod run;
 mod runs;

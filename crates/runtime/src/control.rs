@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::machine::{Machine, OnlySimulated, Program, Tick};
+use crate::machine::{Machine, Observer, OnlySimulated, Program, Tick};
 use crate::motion::{ServoLead, Steering};
 use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
@@ -61,8 +61,13 @@ impl Control {
     ///
     /// `samples` are those since the last tick, oldest first. The function allocates no memory.
     pub fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
+        self.tick_observed(samples, &mut ())
+    }
+
+    /// Executes one [`tick`](Self::tick). `observer` receives the guards that are tried and the transitions that are taken.
+    pub fn tick_observed(&mut self, samples: &[Sample], observer: &mut impl Observer) -> (Command, Tick) {
         self.perception.update(samples);
-        let tick = self.machine.tick(&mut self.perception);
+        let tick = self.machine.tick_observed(&mut self.perception, observer);
         let command = self.steering.command(&tick.action, self.perception.pose_at_effect());
         let command = self.servo_lead.next(command, self.perception.servo());
         self.perception.command(command);

@@ -2,7 +2,9 @@
 
 use std::collections::HashSet;
 
-use crate::policy::ast::{Argument, Connection, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition, Turn};
+use crate::policy::ast::{
+    Argument, Connection, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition, Turn,
+};
 
 /// A set of used names.
 #[derive(Debug, Default)]

@@ -101,8 +101,14 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let derived = file.derived.iter().map(|derived| ("P0506", "derived value", &derived.name));
     let behaviours = file.behaviours.iter().map(|behaviour| ("P0506", "behaviour", &behaviour.name));
     let monitors = file.monitors.iter().map(|monitor| ("P0506", "monitor", &monitor.name));
-    for (code, kind, name) in
-        parameters.chain(whiskers).chain(contours).chain(laws).chain(derived).chain(behaviours).chain(monitors).chain(enumerations)
+    for (code, kind, name) in parameters
+        .chain(whiskers)
+        .chain(contours)
+        .chain(laws)
+        .chain(derived)
+        .chain(behaviours)
+        .chain(monitors)
+        .chain(enumerations)
     {
         if !used.has(&name.text) {
             warnings.push(never_used(code, kind, name, "use it or leave it out"));

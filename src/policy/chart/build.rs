@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::diagnostic::{Source, Span};
+use crate::diagnostic::Source;
 use crate::policy::ast::{self, File, Step};
 use crate::policy::expand::{Expanded, Instance};
 use crate::policy::load::Files;
@@ -96,8 +96,8 @@ impl<'f> Builder<'f> {
         }
         let state = &self.expanded.states[index];
         let arguments = state.arguments.iter().map(|argument| {
-            let type_name = self.text(argument.type_name.span());
-            let default = argument.default.as_ref().map(|default| self.text(default.span));
+            let type_name = self.source.on_one_line(argument.type_name.span());
+            let default = argument.default.as_ref().map(|default| self.source.on_one_line(default.span));
             let type_name = default.map_or(type_name.clone(), |default| format!("{type_name} = {default}"));
             Argument { name: argument.name.text.clone(), type_name }
         });
@@ -155,10 +155,10 @@ impl<'f> Builder<'f> {
     fn guard(&self, guard: &ast::Guard) -> Guard {
         match guard {
             ast::Guard::When { condition, lasting } => Guard::When {
-                condition: self.text(condition.span),
-                lasting: lasting.as_ref().map(|time| self.text(time.span)),
+                condition: self.source.on_one_line(condition.span),
+                lasting: lasting.as_ref().map(|time| self.source.on_one_line(time.span)),
             },
-            ast::Guard::After(time) => Guard::After(self.text(time.span)),
+            ast::Guard::After(time) => Guard::After(self.source.on_one_line(time.span)),
         }
     }
 
@@ -182,8 +182,7 @@ impl<'f> Builder<'f> {
             }
             ast::Target { text: Some(reason), .. } => Target::Failure(reason.text.clone()),
             ast::Target { resume, outer, name, values, .. } => {
-                let outer =
-                    outer.iter().map(|step| Some((self.places[of(&step.name)?], self.texts(&step.values))));
+                let outer = outer.iter().map(|step| Some((self.places[of(&step.name)?], self.texts(&step.values))));
                 Target::State {
                     state: self.places[of(name)?],
                     outer: outer.collect::<Option<_>>()?,
@@ -195,13 +194,6 @@ impl<'f> Builder<'f> {
     }
 
     fn texts(&self, expressions: &[ast::Expression]) -> Vec<String> {
-        expressions.iter().map(|expression| self.text(expression.span)).collect()
-    }
-
-    /// The text of an expression or a type, without comments, on one line with single blanks.
-    fn text(&self, span: Span) -> String {
-        // Expressions contain no strings, so every `#` begins a comment.
-        let lines = self.source.slice(span).lines().map(|line| line.split('#').next().unwrap_or_default());
-        lines.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+        expressions.iter().map(|expression| self.source.on_one_line(expression.span)).collect()
     }
 }

@@ -222,8 +222,8 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
     match word {
         "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
-        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
-        | "test" | "property" => Expected::Nothing,
+        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
+        | "exit" | "test" | "property" => Expected::Nothing,
         "behaviour" => Expected::Nothing,
         "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,

@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 
 use vibrissa_runtime::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
+use vibrissa_runtime::units::Dimension;
+
+use crate::diagnostic::Span;
 
 /// The code and registers of a program that is being generated.
 #[derive(Debug)]
@@ -12,8 +15,43 @@ pub(super) struct Code {
     pub(super) initial: Vec<f64>,
     /// Registers of constants, by their bits.
     constants: BTreeMap<u64, Register>,
+    /// The expressions whose values are in the registers.
+    pub(super) origins: Origins,
     /// True if the program exceeded its limits. No more code is emitted then.
     pub(super) full: bool,
+}
+
+/// The expression of each register that has one.
+#[derive(Debug, Default)]
+pub(in crate::policy) struct Origins(Vec<Option<Origin>>);
+
+/// The expression whose value is in a register.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::policy) struct Origin {
+    /// Span of the expression. Of a derived value, it is the span of its definition.
+    pub(in crate::policy) span: Span,
+    /// The dimension of the compared numbers, if it is a comparison of numbers.
+    pub(in crate::policy) compared: Option<Dimension>,
+}
+
+impl Origins {
+    /// The expression of a register.
+    pub(in crate::policy) fn get(&self, register: Register) -> Option<Origin> {
+        self.0.get(usize::from(register)).copied().flatten()
+    }
+
+    /// Notes the innermost expression of a register. The first one counts, but a comparison replaces it.
+    pub(super) fn note(&mut self, register: Register, origin: Origin) {
+        let index = usize::from(register);
+        if self.0.len() <= index {
+            self.0.resize(index + 1, None);
+        }
+        if let Some(known) = self.0.get_mut(index)
+            && (known.is_none() || origin.compared.is_some())
+        {
+            *known = Some(origin);
+        }
+    }
 }
 
 /// A position in the code.
@@ -25,7 +63,13 @@ pub(super) struct Mark {
 
 impl Code {
     pub(super) fn new() -> Self {
-        Self { ops: Vec::new(), initial: Vec::new(), constants: BTreeMap::new(), full: false }
+        Self {
+            ops: Vec::new(),
+            initial: Vec::new(),
+            constants: BTreeMap::new(),
+            origins: Origins::default(),
+            full: false,
+        }
     }
 
     /// The current position, for [`rewind`](Self::rewind).
@@ -38,6 +82,7 @@ impl Code {
         self.ops.truncate(mark.ops);
         self.initial.truncate(mark.registers);
         self.constants.retain(|_, register| usize::from(*register) < mark.registers);
+        self.origins.0.truncate(mark.registers);
     }
 
     /// The first of `width` new registers.

@@ -36,19 +36,22 @@ impl<'f> Compiler<'f> {
             let message = format!("there is no exit `{}`", target.name.text);
             let diagnostic = Diagnostic::error("P0201", message, target.name.span, "unknown exit");
             let known = instance.exits.iter().map(|exit| exit.name.text.as_str());
-            self.report(did_you_mean(diagnostic, &target.name.text, known).hint(
-                "a behaviour declares its exits in its braces: `exit name(value: type)`; the machine has none",
-            ));
+            self.report(
+                did_you_mean(diagnostic, &target.name.text, known).hint(
+                    "a behaviour declares its exits in its braces: `exit name(value: type)`; the machine has none",
+                ),
+            );
             return None;
         };
         let what = format!("the exit `{}`", exit.name.text);
-        let given = match (Callee { what: &what, label: "left here" }).values(&exit.arguments, &target.values, target.span) {
-            Ok(given) => given,
-            Err(diagnostic) => {
-                self.report(diagnostic.note(exit.name.span, "declared here"));
-                return None;
-            }
-        };
+        let given =
+            match (Callee { what: &what, label: "left here" }).values(&exit.arguments, &target.values, target.span) {
+                Ok(given) => given,
+                Err(diagnostic) => {
+                    self.report(diagnostic.note(exit.name.span, "declared here"));
+                    return None;
+                }
+            };
         let (mark, start) = (self.code.mark(), self.code.here());
         let mut values: Vec<Meaning> = Vec::with_capacity(given.len());
         for (argument, Given { value, is_default }) in exit.arguments.iter().zip(given) {

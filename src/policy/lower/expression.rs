@@ -11,12 +11,15 @@ use vibrissa_runtime::machine::{BodyScalar, Op, Register};
 use vibrissa_runtime::units::{Dimension, parse_unit};
 
 use super::Compiler;
+use super::code::Origin;
 use super::scope::Scope;
 
 impl<'f> Compiler<'f> {
     /// Lowers an expression. `None` if it has an error, which has been reported.
     pub(super) fn expression(&mut self, scope: &Scope<'f>, expression: &'f Expression) -> Option<Value> {
-        self.descend(expression.span, |compiler| compiler.kind(scope, expression))
+        let value = self.descend(expression.span, |compiler| compiler.kind(scope, expression))?;
+        self.code.origins.note(value.register, Origin { span: expression.span, compared: None });
+        Some(value)
     }
 
     fn kind(&mut self, scope: &Scope<'f>, expression: &'f Expression) -> Option<Value> {
@@ -58,7 +61,13 @@ impl<'f> Compiler<'f> {
             Kind::If { condition, value, otherwise } => self.choice(scope, condition, [value, otherwise]),
             Kind::Binary { operator, left, right } => {
                 let (left_value, right_value) = (self.expression(scope, left), self.expression(scope, right));
-                self.binary(*operator, (left_value?, left.span), (right_value?, right.span))
+                let (left_value, right_value) = (left_value?, right_value?);
+                let value = self.binary(*operator, (left_value, left.span), (right_value, right.span))?;
+                if let (Type::Truth, Type::Scalar(dimension)) = (value.r#type, left_value.r#type) {
+                    let origin = Origin { span: expression.span, compared: Some(dimension) };
+                    self.code.origins.note(value.register, origin);
+                }
+                Some(value)
             }
         }
     }

@@ -39,6 +39,7 @@ use monitor::Running;
 use names::Names;
 use scope::{Meaning, Scope};
 
+pub(super) use code::{Origin, Origins};
 pub(super) use scope::is_reserved;
 pub(super) use structure::SUCCESS;
 
@@ -50,6 +51,17 @@ pub(super) struct Lowered {
     pub(super) arguments: Vec<Vec<(String, Value)>>,
     /// The names of the values of each enumeration, by the span of its name.
     pub(super) choices: HashMap<Span, Vec<String>>,
+    /// The memory of the machine, and for each state its arguments and memory.
+    pub(super) memory: Memory,
+    /// The expressions whose values are in the registers.
+    pub(super) origins: Origins,
+}
+
+/// The values that a running machine keeps from tick to tick: names, types and registers.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    pub(super) machine: Vec<(String, Value)>,
+    pub(super) states: Vec<Vec<(String, Value)>>,
 }
 
 /// The types of names, by the span of their declaration.
@@ -83,7 +95,8 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
         Some(program) if diagnostics.is_empty() => {
             let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
-            Ok(Lowered { program, tests, arguments: arguments.collect(), choices })
+            let (memory, origins) = (compiler.memory, compiler.code.origins);
+            Ok(Lowered { program, tests, arguments: arguments.collect(), choices, memory, origins })
         }
         _ => Err(diagnostics),
     }
@@ -141,6 +154,7 @@ struct Compiler<'f> {
     hierarchy: Hierarchy<'f>,
     /// For each state, the names that it knows.
     scopes: Vec<Scope<'f>>,
+    memory: Memory,
     /// Declarations of laws and derived values with errors.
     erroneous: HashSet<Span>,
     /// Laws and derived values that are being inlined.
@@ -181,6 +195,7 @@ impl<'f> Compiler<'f> {
             states: HashMap::new(),
             hierarchy: Hierarchy::default(),
             scopes: Vec::new(),
+            memory: Memory::default(),
             erroneous: HashSet::new(),
             inlining: Vec::new(),
             state_body: &[],

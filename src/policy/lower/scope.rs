@@ -36,6 +36,12 @@ impl<'f> Scope<'f> {
         self.names.push((name, meaning));
     }
 
+    /// The names after the first `len` that have a value.
+    pub(super) fn values_since(&self, len: usize) -> Vec<(String, Value)> {
+        let names = self.names.get(len..).unwrap_or_default().iter();
+        names.filter_map(|(name, meaning)| Some((name.text.clone(), (*meaning)?))).collect()
+    }
+
     /// Number of names, for [`truncate`](Self::truncate).
     pub(super) fn len(&self) -> usize {
         self.names.len()

@@ -70,6 +70,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let body = compiler.own_body(&scope, file);
     // The registers of all arguments must exist before any transition is lowered.
     compiler.declare(&files.machine, &scope);
+    compiler.memory.machine = scope.values_since(0);
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
     let fallback = compiler.failsafe(&scope, None, &file.failsafes);
@@ -214,8 +215,11 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the statements outside of all states.
     fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
-        self.commandless =
-            Some(Commandless { construct: "the machine itself", hint: "move it to the statements of a state", allows_records: true });
+        self.commandless = Some(Commandless {
+            construct: "the machine itself",
+            hint: "move it to the statements of a state",
+            allows_records: true,
+        });
         let start = self.code.here();
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
@@ -231,6 +235,7 @@ impl<'f> Compiler<'f> {
         self.hierarchy = Hierarchy::new(expanded);
         self.states.clear();
         self.scopes.clear();
+        self.memory.states.clear();
         for (index, state) in expanded.states.iter().enumerate() {
             if self.hierarchy.outward(index).count() == NESTING_LIMIT + 1 {
                 let message = format!("states are nested more than {NESTING_LIMIT} deep");
@@ -242,7 +247,9 @@ impl<'f> Compiler<'f> {
                 Some(parent) => self.scopes[parent].clone(),
                 None => own.clone(),
             };
+            let outer = scope.len();
             self.within(self.hierarchy.file(index), |compiler| compiler.declare_state(index, state, &mut scope));
+            self.memory.states.push(scope.values_since(outer));
             self.scopes.push(scope);
         }
     }
@@ -311,7 +318,8 @@ impl<'f> Compiler<'f> {
         let body = self.code.since(start);
         let initial = self.inner_initial(scope, index, state);
 
-        self.commandless = Some(Commandless { construct: "leaving a state", hint: COMMAND_ADVICE, allows_records: true });
+        self.commandless =
+            Some(Commandless { construct: "leaving a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
@@ -324,7 +332,8 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the entry of a state.
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
-        self.commandless = Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE, allows_records: true });
+        self.commandless =
+            Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
         self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {

@@ -131,7 +131,8 @@ fn a_behaviour_is_one_box_whose_arrows_have_the_names_of_exits() {
 
 #[test]
 fn the_behaviours_of_a_library_are_drawn_with_their_exits_as_ends() {
-    let library = BEHAVIOURS.replace("machine m whisker r0 initial A", "library m").split("state A").next().unwrap().to_owned();
+    let library =
+        BEHAVIOURS.replace("machine m whisker r0 initial A", "library m").split("state A").next().unwrap().to_owned();
     let chart = chart_of(&library);
     assert_eq!(names(&chart), ["outer", "outer.B", "outer.C", "inner"]);
     assert_eq!(chart.ends(), [("outer", "lost"), ("outer", "far"), ("inner", "done"), ("inner", "stuck")]);

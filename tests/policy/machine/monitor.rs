@@ -87,7 +87,8 @@ fn two_uses_remember_for_themselves() {
 
 #[test]
 fn a_monitor_of_a_library_is_the_same_as_one_of_the_machine() {
-    let monitor = "monitor felt(w: whisker, step: number) { var count = 0  if w.touching { set count = count + step } }";
+    let monitor =
+        "monitor felt(w: whisker, step: number) { var count = 0  if w.touching { set count = count + step } }";
     let rest = format!(
         "whisker r0 monitor right is felt(r0, 2) initial A state A {{ {}  when right.count > 3 -> A }}",
         tell("right.count")
@@ -108,7 +109,10 @@ fn the_bound_of_a_tick_counts_monitors_once() {
     let monitors = watched.monitors.len();
     assert!(monitors > 0);
     assert_eq!(watched.operations(0), plain.operations(0) + monitors);
-    assert_eq!(watched.most_operations(), plain.most_operations() + monitors + watched.entry.len() + watched.start.len());
+    assert_eq!(
+        watched.most_operations(),
+        plain.most_operations() + monitors + watched.entry.len() + watched.start.len()
+    );
 }
 
 /// A monitor that computes much, remembers, and is read by nothing.

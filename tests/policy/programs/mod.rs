@@ -1,6 +1,7 @@
 //! Whole random programs mean in a machine what they mean to a plain interpreter.
 
 mod evaluate;
+mod explained;
 mod filter;
 mod generate;
 mod grow;

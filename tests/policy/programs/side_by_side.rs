@@ -157,7 +157,10 @@ const DONE: [(&str, &[&str]); 42] = [
     ("a named value", &["a body", "a law", "an if", "an entry", "a guard", "a target", "a memory"]),
     ("a default", &["a body", "a law", "an if", "an entry", "a target"]),
     ("let", &["a body", "a law", "an if", "an entry", "an exit"]),
-    ("what a monitor remembers", &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a memory", "a monitor"]),
+    (
+        "what a monitor remembers",
+        &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a memory", "a monitor"],
+    ),
     ("set", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of the machine's memory", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of what was named before", &["a body", "an if", "an entry", "an exit"]),

@@ -13,6 +13,7 @@ mod fmt;
 mod graph;
 #[cfg(unix)]
 mod inputs;
+mod inspect;
 #[cfg(target_os = "linux")]
 mod interrupt;
 #[cfg(all(target_os = "linux", feature = "sim"))]

@@ -8,7 +8,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose};
 use vibrissa::policy::{compile, gather};
 use vibrissa::quasi_static::QuasiStaticWorld;
-use vibrissa::run::{Run, drive};
+use vibrissa::run::{Progress, Run, Trace, drive};
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, Stop};
 use vibrissa::world::{Fault, World};
@@ -34,7 +34,7 @@ fn run(scene: &Scene, program: Program, world: &mut dyn World, time: f64) -> Opt
     let stop = Stop { time, loop_closed: None, reached: None, ..scene.stop };
     let control = Control::new(&scene.rig, Arc::new(program)).ok()?;
     let period = 1.0 / scene.rig.sensing.control_rate;
-    drive(world, control, &stop, period, |_| ControlFlow::Continue(()))
+    drive(world, control, &stop, period, &mut Progress(|_: &Trace| ControlFlow::Continue(())))
 }
 
 /// The state that gave a command that is not finite, if one did.

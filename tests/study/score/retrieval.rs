@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::runs::run_with;
 use proptest::prelude::*;
 use vibrissa::geometry::{Point2, Pose, unit};
-use vibrissa::run::{MarkRecord, Trace, drive};
+use vibrissa::run::{MarkRecord, Progress, Trace, drive};
 use vibrissa::scene::Stop;
 use vibrissa::score::{RetrievalFigures, mark_positions, retrievals};
 use vibrissa::world::{Fault, World};
@@ -185,7 +185,7 @@ fn a_policy_that_loses_an_edge_and_finds_it_again_is_measured_from_its_last_touc
     let bent = |tick| !(60..90).contains(&tick);
     let mut stage = Stage { bent, tick: 0, body, samples: [sample; 10] };
     let stop = Stop { time: 5.0, loop_closed: None, reached: None, stalled: None };
-    let run = drive(&mut stage, control, &stop, 1.0 / 30.0, |_| ControlFlow::Continue(()));
+    let run = drive(&mut stage, control, &stop, 1.0 / 30.0, &mut Progress(|_: &Trace| ControlFlow::Continue(())));
     let run = run.unwrap();
     let found = retrievals(&run.trace);
     assert_eq!(found.len(), 1);

@@ -6,6 +6,7 @@ use super::action::{Action, NonFinite};
 use super::configuration::Configuration;
 use super::evaluate::{compute, evaluate};
 use super::fallback::{Cause, Fallback};
+use super::observer::{Duration, Observer, Standing, TransitionId, TriedGuard};
 use super::op::Block;
 use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
@@ -55,6 +56,7 @@ impl Activity {
         program: &Program,
         senses: &mut S,
         action: &mut Action,
+        observer: &mut impl Observer,
     ) -> (Result<(), End>, Option<Fallback>) {
         let now = senses.time();
         let is_first = !std::mem::replace(&mut self.has_begun, true);
@@ -66,25 +68,32 @@ impl Activity {
         if is_first {
             self.enter(program, None, (self.state(), false), now, senses);
         }
-        let mut enabled = self.enabled(program, None, now, senses);
+        let mut enabled = self.enabled(program, None, now, senses, observer);
         for taken in 0..=MICROSTEP_LIMIT {
             if enabled.is_none() {
-                enabled = self.enabled_within(program, now, senses);
+                enabled = self.enabled_within(program, now, senses, observer);
             }
-            match enabled.take() {
+            let enabled = enabled.take();
+            if let Some((transition, target)) = enabled
+                && (taken < MICROSTEP_LIMIT || !matches!(target, Target::State { .. }))
+            {
+                observer.taken(transition);
+            }
+            match enabled {
                 None => {
                     self.compute(program, &program.body, senses);
                     return match self.run_bodies(program, 0, senses, action) {
                         Ok(()) => (Ok(()), None),
                         Err((state, non_finite)) => {
+                            observer.not_finite(state, &self.registers);
                             self.take_fallback(program, (state, Cause::NotFinite(non_finite)), now, senses, action)
                         }
                     };
                 }
                 Some((_, Target::Failure(reason))) => return (Err(failure(reason)), None),
                 Some((_, Target::Success(reason))) => return (Err(End::Success(Arc::clone(reason))), None),
-                Some((from, Target::State { state, arguments, resume })) if taken < MICROSTEP_LIMIT => {
-                    self.take(program, from, (*state, arguments, *resume), now, senses);
+                Some((transition, Target::State { state, arguments, resume })) if taken < MICROSTEP_LIMIT => {
+                    self.take(program, transition.state, (*state, arguments, *resume), now, senses);
                 }
                 Some((_, Target::State { .. })) => {}
             }
@@ -98,9 +107,10 @@ impl Activity {
         program: &'p Program,
         now: f64,
         senses: &mut S,
-    ) -> Option<(Option<usize>, &'p Target)> {
+        observer: &mut impl Observer,
+    ) -> Option<(TransitionId, &'p Target)> {
         (0..self.active.states().len())
-            .find_map(|level| self.enabled(program, Some(self.active.states()[level]), now, senses))
+            .find_map(|level| self.enabled(program, Some(self.active.states()[level]), now, senses, observer))
     }
 
     /// Takes the transition to a target. `from` is the state of the transition, or `None` for a global one.
@@ -229,7 +239,7 @@ impl Activity {
         (outcome, Some(Fallback { left: state_left, cause }))
     }
 
-    /// The target of the first enabled transition of the state `from`, or of the global transitions for `None`.
+    /// The first enabled transition of the state `from`, or of the global transitions for `None`, and its target.
     ///
     /// If that target is already active from outside, only an end of the run among the other transitions counts. All guards are
     /// evaluated, so that the timers of later ones run.
@@ -239,43 +249,52 @@ impl Activity {
         from: Option<usize>,
         now: f64,
         senses: &mut S,
-    ) -> Option<(Option<usize>, &'p Target)> {
+        observer: &mut impl Observer,
+    ) -> Option<(TransitionId, &'p Target)> {
         let (transitions, since) = match from {
             None => (&program.always, 0.0),
             Some(state) => (&program.states[state].transitions, self.entered_at[state]),
         };
         self.compute(program, &guards(transitions), senses);
-        let (mut first, mut end): (Option<&Target>, Option<&Target>) = (None, None);
-        for Transition { guard, target } in transitions {
-            if self.holds(guard, now - since, now) {
-                first = first.or(Some(target));
+        let (mut first, mut end): (Option<(TransitionId, &Target)>, _) = (None, None);
+        for (index, Transition { guard, target }) in transitions.iter().enumerate() {
+            let (transition, standing) = (TransitionId { state: from, index }, self.standing(guard, now - since, now));
+            observer.guard(&TriedGuard { transition, standing, registers: &self.registers });
+            if standing.is_enabled() {
+                first = first.or(Some((transition, target)));
                 if let Target::Failure(_) | Target::Success(_) = target {
-                    end = end.or(Some(target));
+                    end = end.or(Some((transition, target)));
                 }
             }
         }
-        let target = match first? {
-            Target::State { state, .. } if program.is_target_active(from, *state, self.state()) => end?,
-            target => target,
-        };
-        Some((from, target))
+        match first? {
+            (_, Target::State { state, .. }) if program.is_target_active(from, *state, self.state()) => end,
+            first => Some(first),
+        }
     }
 
-    /// True if an evaluated guard holds. `active` is the time (s) for which its state has been active.
+    /// The standing of an evaluated guard. `active` is the time (s) for which its state has been active.
     #[inline]
-    fn holds(&mut self, guard: &Guard, active: f64, now: f64) -> bool {
+    fn standing(&mut self, guard: &Guard, active: f64, now: f64) -> Standing {
         match *guard {
             Guard::When { truth, lasting, .. } => {
-                let holds = self.registers[usize::from(truth)] > 0.5;
-                let Some((duration, timer)) = lasting else { return holds };
-                let since = &mut self.holding_since[timer];
-                if !holds {
-                    *since = None;
-                    return false;
-                }
-                now - *since.get_or_insert(now) >= self.registers[usize::from(duration)] - TIME_SLACK
+                let is_met = self.registers[usize::from(truth)] > 0.5;
+                let duration = lasting.map(|(duration, timer)| {
+                    let since = &mut self.holding_since[timer];
+                    let elapsed = if is_met {
+                        now - *since.get_or_insert(now)
+                    } else {
+                        *since = None;
+                        0.0
+                    };
+                    Duration { elapsed, needed: self.registers[usize::from(duration)] }
+                });
+                Standing { is_met, duration }
             }
-            Guard::After { time, .. } => active >= self.registers[usize::from(time)] - TIME_SLACK,
+            Guard::After { time, .. } => {
+                let needed = self.registers[usize::from(time)];
+                Standing { is_met: true, duration: Some(Duration { elapsed: active, needed }) }
+            }
         }
     }
 }

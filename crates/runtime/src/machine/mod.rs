@@ -13,6 +13,7 @@ mod contour;
 mod evaluate;
 mod fallback;
 mod needs;
+mod observer;
 mod op;
 mod operands;
 mod program;
@@ -33,6 +34,7 @@ pub use contact_estimator_kind::ContactEstimatorKind;
 pub use contour::{Keypoints, PositionContour};
 pub use fallback::{Cause, Fallback};
 pub use needs::{Needs, RateRange, UnmetRate};
+pub use observer::{Duration, Observer, Standing, TransitionId, TriedGuard};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
     CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, ParameterValue,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::action::{Action, NonFinite};
 use super::activity::Activity;
 use super::fallback::Fallback;
+use super::observer::Observer;
 use super::program::Program;
 use super::senses::Senses;
 
@@ -139,11 +140,16 @@ impl Machine {
     /// transition of the state is taken, or else that of the program. The entered state then gives the action. The
     /// machine fails if there is no fallback transition or the new action is not finite either.
     pub fn tick<S: Senses>(&mut self, senses: &mut S) -> Tick {
+        self.tick_observed(senses, &mut ())
+    }
+
+    /// Executes one [`tick`](Self::tick). `observer` receives the guards that are tried and the transitions that are taken.
+    pub fn tick_observed<S: Senses>(&mut self, senses: &mut S, observer: &mut impl Observer) -> Tick {
         if self.end.is_some() {
             return Tick { action: Action::Stop, status: self.status(), fallback: None };
         }
         let mut tick = Tick { action: Action::Hold, status: Status::Running, fallback: None };
-        let (outcome, fallback) = self.activity.tick(&self.program, senses, &mut tick.action);
+        let (outcome, fallback) = self.activity.tick(&self.program, senses, &mut tick.action, observer);
         tick.fallback = fallback;
         if let Err(end) = outcome {
             self.end = Some(end);

@@ -1,0 +1,71 @@
+//! The interface to watch a machine from outside while it executes a tick.
+
+/// Receives the guards that a machine tries and the transitions that it takes, in this order.
+///
+/// An observer changes nothing. `()` observes nothing, at no cost.
+pub trait Observer {
+    /// A guard was evaluated.
+    fn guard(&mut self, tried: &TriedGuard<'_>) {
+        let _ = tried;
+    }
+
+    /// A transition is taken. Its guard was evaluated before.
+    fn taken(&mut self, transition: TransitionId) {
+        let _ = transition;
+    }
+
+    /// A command with a number that is not finite was given in the state with this index. `registers` are those after the
+    /// statements.
+    fn not_finite(&mut self, state: usize, registers: &[f64]) {
+        let _ = (state, registers);
+    }
+}
+
+impl Observer for () {}
+
+/// Identifies a transition of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TransitionId {
+    /// Index of the state to which it belongs. `None` for a global transition.
+    pub state: Option<usize>,
+    /// Index among the transitions of that state, or among the global ones.
+    pub index: usize,
+}
+
+/// A guard with the result of its evaluation.
+#[derive(Debug, Clone, Copy)]
+pub struct TriedGuard<'a> {
+    /// The transition of the guard.
+    pub transition: TransitionId,
+    /// The result.
+    pub standing: Standing,
+    /// All registers after the evaluation. In a program that is not optimised, they include the operands of the
+    /// guard's comparisons.
+    pub registers: &'a [f64],
+}
+
+/// The result of the evaluation of a guard.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standing {
+    /// True if the condition holds. A guard `after` has none, and this is true.
+    pub is_met: bool,
+    /// For a guard with a time, that time.
+    pub duration: Option<Duration>,
+}
+
+/// A time that has to elapse before a guard is enabled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Duration {
+    /// Time (s) since the condition holds, or since the state was entered. 0 if the condition does not hold.
+    pub elapsed: f64,
+    /// Time (s) that is needed.
+    pub needed: f64,
+}
+
+impl Standing {
+    /// True if the transition can be taken.
+    #[must_use]
+    pub fn is_enabled(&self) -> bool {
+        self.is_met && self.duration.is_none_or(|time| time.elapsed >= time.needed - super::TIME_SLACK)
+    }
+}

@@ -1,0 +1,79 @@
+//! `vibrissa diff`
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::inspect::{breakpoints, with_program};
+use super::options::{Format, MismatchOptions, WorldOptions};
+use super::output;
+use crate::built_in::{SCENARIOS, TextFile};
+use crate::file::CommandFiles;
+use crate::inspect::{Breakpoints, PolicyDifference, first_difference};
+use crate::load::{self, Loaded};
+use crate::report::difference_tables;
+use crate::scene::Scene;
+use crate::trial::{Inputs, Trial};
+
+const EXAMPLE: &str = "Example:\n  vibrissa diff policies/thesis.fsm mine.fsm scenarios/box.yaml\n\nExit status: 0 the policies are equal in every tick; 1 they differ; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa diff`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct DiffArguments {
+    /// The policy whose commands move the platform
+    #[arg(value_name = "POLICY")]
+    first: PathBuf,
+    /// The policy that receives the same samples
+    #[arg(value_name = "OTHER")]
+    second: PathBuf,
+    /// Scenarios. Without any, those of the bench
+    #[arg(value_name = "SCENARIO")]
+    scenarios: Vec<PathBuf>,
+    #[command(flatten)]
+    world: WorldOptions,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
+    #[command(flatten)]
+    format: Format,
+}
+
+pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let policies = [explained(&arguments.first, &mut files)?, explained(&arguments.second, &mut files)?];
+    let mismatch = arguments.mismatch.load(&mut files)?;
+    let mut differences = Vec::new();
+    for (path, Loaded { value: mut scene, hash: mut scenario_hash }) in scenes(&arguments.scenarios, &mut files)? {
+        mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
+        let trial = |policy: &Breakpoints| {
+            let world = arguments.world.of(&scene);
+            let inputs = Inputs { scenario: path.clone(), ..Inputs::default() };
+            let trial = Trial::new(scene.clone(), Arc::new(policy.explained.program.clone()));
+            with_program(&Trial { world, inputs, ..trial }, policy)
+        };
+        let [first, second] = &policies;
+        let (own, other) = (trial(first), trial(second));
+        differences.push(first_difference(&own, [first, second], &other).map_err(Failure::execute(&own))?);
+    }
+    output::documents_of_any_number(arguments.format, &differences, || {
+        differences.iter().flat_map(difference_tables).collect()
+    })?;
+    let is_equal = |difference: &PolicyDifference| difference.first.is_none();
+    Ok(if differences.iter().all(is_equal) { Exit::Done } else { Exit::Unexpected })
+}
+
+fn explained(path: &Path, files: &mut CommandFiles) -> Result<Breakpoints, Failure> {
+    let source = load::policy_text(path, files)?;
+    breakpoints(&load::with_libraries(&source, files), &[])
+}
+
+fn scenes(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Vec<(PathBuf, Loaded<Scene>)>, Failure> {
+    if paths.is_empty() {
+        let built_in = |file: &TextFile| Ok((file.path.into(), load::built_in_scenario(file)?));
+        return SCENARIOS.iter().map(built_in).collect();
+    }
+    paths.iter().map(|path| Ok((path.clone(), load::scenario(path, files)?))).collect()
+}

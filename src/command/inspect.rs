@@ -1,0 +1,95 @@
+//! `vibrissa run --break` and `--transitions`
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::output;
+use super::run::{RunArguments, finish, reports, show, trials_with_texts};
+use crate::diagnostic::Source;
+use crate::file::CommandFiles;
+use crate::inspect::{Breakpoints, Inspector};
+use crate::load::LoadError;
+use crate::report::stop_tables;
+use crate::trial::{ExecuteError, Trial};
+
+/// The options of a run that looks into its policy.
+#[derive(Debug, Args)]
+pub(super) struct InspectionOptions {
+    /// Stop when a state is entered or a condition holds, and print what each guard is missing: --break Retrieval,
+    /// --break "r0.deflection > 300 urad". Repeatable
+    #[arg(long = "break", value_name = "STATE|CONDITION", conflicts_with = "watch")]
+    breakpoints: Vec<String>,
+    /// Write every transition that is taken into this file, with the parts of all guards, as one line of JSON each
+    #[arg(long, value_name = "FILE", conflicts_with = "watch")]
+    transitions: Option<PathBuf>,
+}
+
+impl InspectionOptions {
+    /// True if an option is given.
+    pub(super) fn is_given(&self) -> bool {
+        !self.breakpoints.is_empty() || self.transitions.is_some()
+    }
+}
+
+/// Runs each trial with an inspector.
+pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Exit, Failure> {
+    let options = &arguments.inspection;
+    let trials = trials_with_texts(arguments, files)?;
+    let transition_file = options.transitions.as_ref().map(|path| files.output("--transitions", path)).transpose()?;
+    let plain: Vec<Trial> = trials.iter().map(|(trial, _)| trial.clone()).collect();
+    let reports = reports(&plain, arguments.out.as_deref(), files)?;
+    let (mut results, mut stops, mut lines, mut exit) = (Vec::new(), Vec::new(), String::new(), Exit::Done);
+    for ((trial, text), report) in trials.iter().zip(reports) {
+        let source = text.as_ref().ok_or_else(|| Failure::NoTextToInspect { name: trial.program.name.clone() })?;
+        let policy = breakpoints(source, &options.breakpoints)?;
+        let trial = with_program(trial, &policy);
+        let mut inspector = Inspector::new(&policy, &trial.scene.name);
+        let finished = trial.run_watched(&mut inspector);
+        for line in inspector.transitions() {
+            lines += &output::json_line(line)?;
+        }
+        if let Some(origin) = inspector.origin_of_non_finite() {
+            output::message(format_args!("{}: a number is not finite since `{origin}`", trial.scene.name));
+        }
+        match (finished, inspector.stop()) {
+            (Err(ExecuteError::Interrupted), Some(stop)) => stops.push(stop.clone()),
+            (finished, _) => {
+                let finished = finished.map_err(Failure::execute(&trial))?;
+                if !finished.violations.is_empty() {
+                    exit = Exit::Unexpected;
+                }
+                results.push(finish(&trial, &finished, report)?);
+            }
+        }
+    }
+    if let Some(file) = transition_file {
+        file.write(lines)?;
+    }
+    if !stops.is_empty() {
+        output::documents_of_any_number(arguments.format, &stops, || stops.iter().flat_map(stop_tables).collect())?;
+    }
+    if stops.is_empty() || !results.is_empty() {
+        show(&results, arguments)?;
+    }
+    Ok(exit)
+}
+
+/// The policy with the requested breakpoints.
+pub(super) fn breakpoints(source: &Source, texts: &[String]) -> Result<Breakpoints, Failure> {
+    Breakpoints::new(source, texts)
+        .map_err(|(source, faults)| Failure::Load(LoadError::Faults { source_text: Box::new(source), faults }))
+}
+
+/// The trial with the program that can be explained. Its parameters have the same values.
+pub(super) fn with_program(trial: &Trial, policy: &Breakpoints) -> Trial {
+    let mut program = policy.explained.program.clone();
+    let parameters = trial.program.parameters.len();
+    for (own, set) in program.initial_registers.iter_mut().zip(&trial.program.initial_registers).take(parameters) {
+        *own = *set;
+    }
+    Trial { program: Arc::new(program), ..trial.clone() }
+}

@@ -1,0 +1,52 @@
+//! `vibrissa run --break`, `--transitions`, and `vibrissa diff`
+
+use serde_json::Value;
+
+use super::program::{directory, stderr, stdout, vibrissa};
+
+const BOX: [&str; 4] = ["scenarios/box.yaml", "--world", "quasistatic", "--policy"];
+
+#[test]
+fn a_run_stops_at_a_breakpoint_and_shows_its_guards() {
+    let arguments = [&["run"], &BOX[..], &["policies/thesis.fsm", "--break", "Meeting"]].concat();
+    let output = vibrissa(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let shown = stdout(&output);
+    assert!(shown.contains("breakpoint `Meeting`") && shown.contains("Exploring"), "{shown}");
+    let output = vibrissa(&[&arguments[..], &["--json"]].concat());
+    let stops: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!((&stops[0]["format"], &stops[0]["states"][1]), (&"stop".into(), &"Meeting".into()), "{stops}");
+}
+
+#[test]
+fn every_transition_is_a_line_of_json() {
+    let file = directory("transitions").join("transitions.jsonl");
+    let path = file.display().to_string();
+    let output = vibrissa(&[&["run"], &BOX[..], &["policies/thesis.fsm", "--transitions", &path]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let lines = std::fs::read_to_string(file).unwrap();
+    let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(lines.len() > 20 && lines.iter().all(|line| line["format"] == "transition"));
+}
+
+#[test]
+fn a_compiled_machine_has_no_guards_to_show() {
+    let machine = directory("machine").join("thesis.machine").display().to_string();
+    assert_eq!(vibrissa(&["compile", "policies/thesis.fsm", "-o", &machine]).status.code(), Some(0));
+    let output = vibrissa(&[&["run"], &BOX[..], &[&machine, "--break", "Meeting"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("give its policy"), "{}", stderr(&output));
+}
+
+#[test]
+fn diff_has_exit_status_1_for_policies_that_differ() {
+    let diff = |other: &str| {
+        let arguments = ["diff", "policies/thesis.fsm", other, "scenarios/box.yaml", "--world", "quasistatic"];
+        let output = vibrissa(&arguments);
+        (output.status.code(), stdout(&output))
+    };
+    let (status, shown) = diff("policies/thesis.fsm");
+    assert!(status == Some(0) && shown.contains("equal in all"), "{shown}");
+    let (status, shown) = diff("policies/baseline.fsm");
+    assert!(status == Some(1) && shown.contains("the first difference is in tick"), "{shown}");
+}
