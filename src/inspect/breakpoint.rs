@@ -60,7 +60,7 @@ impl Breakpoints {
 fn with_conditions(source: &Source, conditions: &[&String]) -> Source {
     let mut text = source.slice(source.part_span(0)).to_owned();
     for condition in conditions {
-        text += &format!("\nalways when {condition} -> Failure(\"breakpoint\")");
+        text.extend(["\nalways when ", condition, " -> Failure(\"breakpoint\")"]);
     }
     let mut whole = Source::new(source.name.as_str(), text);
     for part in 1..source.count() {

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::signal::Command;
+use vibrissa_runtime::machine::Tick;
+use vibrissa_runtime::signal::{Command, Sample};
 
 use crate::results::Document;
 use crate::run::Monitor;
@@ -73,46 +74,65 @@ pub fn first_difference(
     second: &Trial,
 ) -> Result<PolicyDifference, ExecuteError> {
     let scenario = trial.scene.name.clone();
-    let (mut world, mut controls) = (trial.world()?, [trial.control()?, second.control()?]);
-    let mut inspectors = policies.map(|policy| Inspector::new(policy, &scenario));
+    let mut world = trial.world()?;
+    let (mut own, mut other) =
+        (Side::new(trial, policies[0], &scenario)?, Side::new(second, policies[1], &scenario)?);
     let period = trial.scene.rig.sensing.control_rate.recip();
-    let mut monitor = Monitor::new(&controls[0], &trial.scene.stop, period);
+    let mut monitor = Monitor::new(&own.control, &trial.scene.stop, period);
     let (mut command, mut equal_ticks, mut states_differ_from) = (Command::STOP, 0, None);
     let first = loop {
         let Ok(samples) = world.advance(&command) else { break None };
-        let mut ticked = controls.iter_mut().zip(&mut inspectors).map(|(control, inspector)| {
-            inspector.begin_tick();
-            let (command, tick) = control.tick_observed(samples, inspector);
-            (names(control), command, tick)
-        });
-        let (Some(own), Some(other)) = (ticked.next(), ticked.next()) else { break None };
-        drop(ticked);
-        let time = controls[0].perception().time();
-        for (control, inspector) in controls.iter().zip(&mut inspectors) {
-            let is_running = control.machine().failure().is_none() && control.machine().success().is_none();
-            inspector.end_tick(time, is_running.then(|| control.machine().state()));
-        }
-        if own.0 != other.0 {
+        let (next, tick) = own.tick(samples);
+        let (others, _) = other.tick(samples);
+        if own.states != other.states {
             states_differ_from.get_or_insert(equal_ticks);
         }
-        if bits(own.1) != bits(other.1) {
-            let [one, two] = [(own, 0), (other, 1)].map(|((states, command, _), index)| PolicyTick {
-                policy: controls[index].machine().program().name.clone(),
-                states,
-                velocity_m_s: command.velocity_world.into(),
-                yaw_rate_rad_s: command.yaw_rate,
-                last: inspectors[index].transitions().last().cloned(),
-                guards: inspectors[index].guards(),
-            });
-            break Some(DifferentTick { tick: equal_ticks, time_s: time, first: one, second: two });
+        if bits(next) != bits(others) {
+            let (first, second) = (own.record(next), other.record(others));
+            break Some(DifferentTick { tick: equal_ticks, time_s: own.control.perception().time(), first, second });
         }
         equal_ticks += 1;
-        command = own.1;
-        if monitor.observe(&controls[0], command, &own.2, world.as_ref()).is_some() {
+        command = next;
+        if monitor.observe(&own.control, command, &tick, world.as_ref()).is_some() {
             break None;
         }
     };
     Ok(PolicyDifference { scenario, equal_ticks, states_differ_from, first })
+}
+
+/// One of the policies.
+struct Side<'b> {
+    control: Box<Control>,
+    inspector: Inspector<'b>,
+    states: Vec<String>,
+}
+
+impl<'b> Side<'b> {
+    fn new(trial: &Trial, policy: &'b Breakpoints, scenario: &str) -> Result<Self, ExecuteError> {
+        let inspector = Inspector::new(policy, scenario);
+        Ok(Self { control: Box::new(trial.control()?), inspector, states: Vec::new() })
+    }
+
+    fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
+        self.inspector.begin_tick();
+        let ticked = self.control.tick_observed(samples, &mut self.inspector);
+        self.states = names(&self.control);
+        let machine = self.control.machine();
+        let state = (!self.states.is_empty()).then(|| machine.state());
+        self.inspector.end_tick(self.control.perception().time(), state);
+        ticked
+    }
+
+    fn record(&self, command: Command) -> PolicyTick {
+        PolicyTick {
+            policy: self.control.machine().program().name.clone(),
+            states: self.states.clone(),
+            velocity_m_s: command.velocity_world.into(),
+            yaw_rate_rad_s: command.yaw_rate,
+            last: self.inspector.transitions().last().cloned(),
+            guards: self.inspector.guards(),
+        }
+    }
 }
 
 /// The names of the active states, from the outermost to the innermost.

@@ -92,8 +92,7 @@ pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<S
         let owner = symbol.owner.and_then(|owner| places.get(owner).copied().flatten());
         // Parts of a symbol, such as the exits of a behaviour, are known only together with it.
         let visible = if is_export(&symbol) { everywhere } else { Span::new(0, 0) };
-        use SymbolKind::{Argument, Choice, Exit, Memory, State};
-        let is_inner = matches!(symbol.kind, Choice | Argument | State | Exit | Memory);
+        let is_inner = is_part(&symbol);
         let is_wanted = if is_export(&symbol) { is_chosen() } else { is_inner && owner.is_some() };
         let known = symbols[own..].iter().position(|known| known.span == symbol.span).map(|index| own + index);
         places.push(match known {
@@ -104,6 +103,12 @@ pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<S
             known => known,
         });
     }
+}
+
+/// True if a symbol is known only together with its owner.
+fn is_part(symbol: &Symbol) -> bool {
+    use SymbolKind::{Argument, Choice, Exit, Memory, State};
+    matches!(symbol.kind, Choice | Argument | State | Exit | Memory)
 }
 
 /// True if other files can use a symbol of a file.

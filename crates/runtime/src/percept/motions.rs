@@ -30,7 +30,7 @@ const FOLLOWING: f64 = 1.0;
 impl Motions {
     /// Creates the measurement for `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
-        let following = (FOLLOWING * rig.sensing.control_rate).recip().min(1.0);
+        let following = crate::math::min((FOLLOWING * rig.sensing.control_rate).recip(), 1.0);
         Self {
             platform: PlatformMotion::new(rig),
             contacts: PoseDelay::new(),
