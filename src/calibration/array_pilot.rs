@@ -131,6 +131,15 @@ impl<'w> ArrayPilot<'w> {
         Command { velocity_world, yaw_rate: gain * (self.heading - self.body.heading) }
     }
 
+    /// Moves at a constant velocity (m/s, world frame) for a time (s), after the time in which the servos follow. The mean
+    /// reading is that at the mean pose.
+    pub(super) fn slide(&mut self, velocity: Vector2, time: f64) -> Result<Rest, Fault> {
+        self.rest(time, |pilot| Command {
+            velocity_world: velocity,
+            yaw_rate: pilot.gain * (pilot.heading - pilot.body.heading),
+        })
+    }
+
     /// Rests in the air.
     pub(super) fn rest_in_air(&mut self) -> Result<Rest, Fault> {
         self.rest(IN_AIR, |_| Command::STOP)

@@ -1,6 +1,8 @@
 //! The procedure that calibrates an array by touches of a known pin.
 
-use vibrissa_runtime::calibration::{PlannedTouch, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal};
+use vibrissa_runtime::calibration::{
+    PlannedTouch, Stroke, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal,
+};
 use vibrissa_runtime::mechanics::Obstacle;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
@@ -59,6 +61,13 @@ const CLEARANCE: f64 = 8e-3;
 const SLIPPED: f64 = 0.3;
 /// Change of the reading in the air (rad) from touch to touch that is no drift.
 const MOVED: f64 = 4e-6;
+/// Number of touches of a whisker that end with a slide of the pin, and the distance (m) from the tip at which a pin has
+/// room for that.
+const STROKES: usize = 3;
+const STROKE_ROOM: f64 = 15e-3;
+/// Speed (m/s) of such a slide, and its time (s) each way.
+const STROKE_SPEED: f64 = 4e-3;
+const STROKE_TIME: f64 = 0.5;
 /// Number of touches without a response after which the whisker is given up.
 const HOPELESS: usize = 4;
 /// Time of the last motions of a touch (s), for which some of the limit is left.
@@ -145,6 +154,8 @@ struct Toucher<'p, 'w> {
     /// Position of the pin (m, frame of the base that the rig assumes), as it was last commanded.
     pin_base: Option<Point2>,
     touched: Vec<(PlannedTouch, Rest)>,
+    /// Slides of the pin along the whisker, outwards and back, each at the end of a touch with this index.
+    strokes: Vec<(usize, [Rest; 2])>,
     /// Rests in the air, one before each touch and one at the end.
     in_air: Vec<Rest>,
     missed: Vec<PlannedTouch>,
@@ -154,8 +165,8 @@ struct Toucher<'p, 'w> {
 
 impl<'p, 'w> Toucher<'p, 'w> {
     fn new(pilot: &'p mut ArrayPilot<'w>, rig: &'p Rig, index: usize, pin: Pin) -> Self {
-        let (touched, in_air, missed, responded) = Default::default();
-        Self { pilot, rig, index, pin, pin_base: None, touched, in_air, missed, responded }
+        let (touched, strokes, in_air, missed, responded) = Default::default();
+        Self { pilot, rig, index, pin, pin_base: None, touched, strokes, in_air, missed, responded }
     }
 
     fn whisker(&self) -> &'p Whisker {
@@ -198,6 +209,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
     fn fitted(&self, readings: &[TouchReading], noise: &TouchNoise) -> Result<TouchFit, TouchRefusal> {
         let others = self.rig.whiskers.iter().enumerate().filter(|(index, _)| *index != self.index);
         TouchFit::accepted(self.whisker(), readings, noise, others.map(|(_, whisker)| whisker))
+            .map(|fit| fit.with_strokes(&self.strokes(), noise))
     }
 
     /// Moves to a planned touch, rests before it and in it, and moves off the whisker again.
@@ -213,6 +225,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
             if !self.is_moved(&in_air)
                 && let Some((slipped, _)) = self.touched.pop()
             {
+                self.strokes.retain(|(touch, _)| *touch < self.touched.len());
                 self.in_air.pop();
                 self.missed.push(slipped);
             }
@@ -231,8 +244,20 @@ impl<'p, 'w> Toucher<'p, 'w> {
         } else {
             self.in_air.push(in_air);
             self.touched.push((planned, touch));
+            if self.strokes.len() < STROKES && planned.pin_base.x < self.whisker().shaft.length - STROKE_ROOM {
+                self.stroke()?;
+            }
             self.go(before)?;
         }
+        Ok(())
+    }
+
+    /// Slides the pin along the bent whisker towards its tip and back.
+    fn stroke(&mut self) -> Result<(), Fault> {
+        let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
+        let outwards = self.pilot.slide(-STROKE_SPEED * along, STROKE_TIME)?;
+        let back = self.pilot.slide(STROKE_SPEED * along, STROKE_TIME)?;
+        self.strokes.push((self.touched.len() - 1, [outwards, back]));
         Ok(())
     }
 
@@ -292,24 +317,38 @@ impl<'p, 'w> Toucher<'p, 'w> {
 
     /// The touches, each with the reading in the air at its time.
     fn readings(&self) -> Vec<TouchReading> {
-        let reading = |(number, (planned, touch)): (usize, &(PlannedTouch, Rest))| {
-            let (base_angle, deviation) = touch.base_angle(self.index);
-            let before = self.in_air.get(number)?;
-            let after = self.in_air.get(number + 1).unwrap_or(before);
-            let span = after.time - before.time;
-            let share = if span > 0.0 { (touch.time - before.time) / span } else { 0.0 };
-            let ((first, noise), (second, later)) = (before.base_angle(self.index), after.base_angle(self.index));
-            let noises = [deviation, (1.0 - share) * noise, share * later, MODEL_ANGLE];
-            Some(TouchReading {
-                body: touch.body,
-                obstacle: Obstacle::Pin { centre: self.pin.centre, radius: self.pin.radius },
-                side: planned.side,
-                base_angle,
-                in_air: first + share * (second - first),
-                deviation: noises.iter().map(|noise| noise * noise).sum::<f64>().sqrt(),
-            })
-        };
+        let reading =
+            |(number, (planned, touch)): (usize, &(PlannedTouch, Rest))| self.reading(number, planned.side, touch);
         self.touched.iter().enumerate().filter_map(reading).collect()
+    }
+
+    /// The strokes, with the reading in the air at their times.
+    fn strokes(&self) -> Vec<Stroke> {
+        let stroke = |(number, [outwards, back]): &(usize, [Rest; 2])| {
+            let (planned, _) = self.touched.get(*number)?;
+            let [outwards, back] = [outwards, back].map(|rest| self.reading(*number, planned.side, rest));
+            Some(Stroke { outwards: outwards?, back: back? })
+        };
+        self.strokes.iter().filter_map(stroke).collect()
+    }
+
+    /// The reading of the touch with this number, or of a stroke at its end.
+    fn reading(&self, number: usize, side: f64, touch: &Rest) -> Option<TouchReading> {
+        let (base_angle, deviation) = touch.base_angle(self.index);
+        let before = self.in_air.get(number)?;
+        let after = self.in_air.get(number + 1).unwrap_or(before);
+        let span = after.time - before.time;
+        let share = if span > 0.0 { (touch.time - before.time) / span } else { 0.0 };
+        let ((first, noise), (second, later)) = (before.base_angle(self.index), after.base_angle(self.index));
+        let noises = [deviation, (1.0 - share) * noise, share * later, MODEL_ANGLE];
+        Some(TouchReading {
+            body: touch.body,
+            obstacle: Obstacle::Pin { centre: self.pin.centre, radius: self.pin.radius },
+            side,
+            base_angle,
+            in_air: first + share * (second - first),
+            deviation: noises.iter().map(|noise| noise * noise).sum::<f64>().sqrt(),
+        })
     }
 
     /// The noise of the poses. That of the mean over a rest is at most as large as that of a single pose.

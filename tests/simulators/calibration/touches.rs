@@ -50,6 +50,8 @@ fn a_plausible_array_is_accepted_within_five_minutes() {
     let found = ArrayCalibration::run(&scene, WorldKind::Mujoco.into(), 0, &TouchLimits::default()).unwrap();
     for touches in &found.whiskers {
         assert!(touches.fit.is_ok() && touches.tip_deviation < 0.1e-3, "{touches:?}");
+        let [friction, deviation] = touches.fit.as_ref().unwrap().sliding_friction;
+        assert!((friction - 0.1).abs() < 3.0 * deviation && deviation < 0.02, "{friction} ± {deviation}");
     }
     assert!(found.whiskers.iter().map(|touches| touches.time).sum::<f64>() < 300.0);
 }

@@ -23,9 +23,9 @@ pub struct MeasuredWhisker {
     pub taper: f64,
     /// Reading of the whisker in the air (rad).
     pub offset: f64,
-    /// Coefficient of friction on the known object.
+    /// Coefficient of friction of the whisker when it slides on the known object.
     pub friction: f64,
-    /// Covariance of the parameters above, in this order. The first one is the relative stiffness.
+    /// Covariance of the parameters above, in this order. The friction is independent of the others. The first one is the relative stiffness.
     pub covariance: [[f64; Parameter::KEPT]; Parameter::KEPT],
 }
 

@@ -25,7 +25,7 @@ pub use deflection_polynomial::DeflectionPolynomial;
 pub use measured_whisker::MeasuredWhisker;
 pub use parameters::{Parameter, ParameterCovariance, Parameters, tolerances};
 pub use refusal::TouchRefusal;
-pub use touch_fit::{TouchFit, TouchNoise, TouchReading};
+pub use touch_fit::{Stroke, TouchFit, TouchNoise, TouchReading};
 pub use touch_plan::{PlannedTouch, TouchPlan};
 
 /// Measured properties of a whisker. Perception derives missing ones from the mechanics.

@@ -27,7 +27,7 @@ pub enum Parameter {
     Taper,
     /// Reading of the whisker in the air (rad).
     Offset,
-    /// Coefficient of friction on the known object.
+    /// Coefficient of friction on the known object, of a whisker at rest.
     Friction,
     /// Play of the hinge (rad): what is added to the base angle in the direction of the bend.
     Play,
@@ -132,12 +132,14 @@ pub(super) fn beside(parameters: &Parameters, index: usize) -> ([Parameters; 2],
     ([at(-STEPS[index]), at(STEPS[index])], 2.0 * STEPS[index])
 }
 
-/// The measured whisker with these parameters and their covariance.
+/// The measured whisker with these parameters and their covariance, and with a friction and its standard deviation. The
+/// friction is that of a whisker that slides. One at rest may have any smaller one.
 #[must_use]
 pub(super) fn measured(
     whisker: &Whisker,
     parameters: &Parameters,
     covariance: &ParameterCovariance,
+    [friction, friction_deviation]: [f64; 2],
 ) -> MeasuredWhisker {
     let other = with_parameters(whisker, parameters);
     MeasuredWhisker {
@@ -148,7 +150,13 @@ pub(super) fn measured(
         curvature: other.shaft.curvature,
         taper: other.shaft.taper(),
         offset: parameters[Parameter::Offset.index()],
-        friction: math::max(parameters[Parameter::Friction.index()], 0.0),
-        covariance: std::array::from_fn(|row| std::array::from_fn(|column| covariance[(row, column)])),
+        friction: math::max(friction, 0.0),
+        covariance: std::array::from_fn(|row| {
+            std::array::from_fn(|column| match (row < Parameter::WHISKER, column < Parameter::WHISKER) {
+                (true, true) => covariance[(row, column)],
+                (false, false) => math::square(friction_deviation),
+                _ => 0.0,
+            })
+        }),
     }
 }

@@ -55,6 +55,17 @@ pub struct TouchFit {
     pub chi_square: f64,
     /// The residual of every touch in standard deviations.
     pub residuals: Vec<f64>,
+    /// Coefficient of friction of the whisker when it slides, and its standard deviation.
+    pub sliding_friction: [f64; 2],
+}
+
+/// Readings of a whisker while the object slides along it to its tip, and while it slides back over nearly the same place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Mean reading on the way to the tip.
+    pub outwards: TouchReading,
+    /// Mean reading on the way back.
+    pub back: TouchReading,
 }
 
 /// The assumptions of a fit: the parameters before any touch.
@@ -70,6 +81,11 @@ const STEPS: usize = 40;
 const SETTLED: f64 = 1e-4;
 /// Residual, in standard deviations, of a touch without an equilibrium.
 const UNREACHED: f64 = 30.0;
+
+/// Number of Newton steps for a coefficient of friction, the difference for its derivative, and its largest magnitude.
+const FRICTION_STEPS: usize = 3;
+const FRICTION_STEP: f64 = 0.02;
+const MOST_FRICTION: f64 = 1.0;
 
 /// A touch with the derivatives of its reading.
 #[derive(Debug, Clone, Copy)]
@@ -131,6 +147,7 @@ impl TouchFit {
             covariance: ParameterCovariance::from_diagonal(&deviations.component_mul(&deviations)),
             chi_square: 0.0,
             residuals: Vec::new(),
+            sliding_friction: unknown_friction(),
         }
     }
 
@@ -191,14 +208,64 @@ impl TouchFit {
             covariance: 0.5 * (covariance + covariance.transpose()),
             chi_square: state.cost,
             residuals: state.residuals,
+            sliding_friction: unknown_friction(),
         })
+    }
+
+    /// Measures the friction of the whisker when it slides. It turns the force outwards or back, so that the two readings
+    /// of a stroke differ. Strokes without an equilibrium are left out.
+    #[must_use]
+    pub fn with_strokes(mut self, strokes: &[Stroke], noise: &TouchNoise) -> Self {
+        let prior = math::square(parameters::tolerances()[Parameter::Friction.index()]).recip();
+        let (mut weight, mut sum) = (prior, 0.0);
+        for (friction, variance) in strokes.iter().filter_map(|stroke| self.friction_of(stroke, noise)) {
+            weight += variance.recip();
+            sum += friction / variance;
+        }
+        self.sliding_friction = [sum / weight, weight.recip().sqrt()];
+        self
+    }
+
+    /// The coefficient of friction by one stroke, and its variance.
+    fn friction_of(&self, stroke: &Stroke, noise: &TouchNoise) -> Option<(f64, f64)> {
+        // The base angle of a contact with this friction, and its variance due to the pose of the platform.
+        let predicted = |reading: &TouchReading, friction: f64| {
+            let obstacle = reading.obstacle.seen_from(reading.body);
+            let mut at = self.parameters;
+            at[Parameter::Friction.index()] = friction;
+            let (mechanics, seen) = parameters::mechanics(&self.whisker, &at, &obstacle);
+            let touch = mechanics.press(&seen, reading.side)?;
+            let predicted = Predicted::of(&self.whisker, &at, &obstacle, &touch, reading.side, noise)?;
+            Some((predicted.reading, predicted.pose_variance))
+        };
+        let difference = |friction: f64| {
+            let ((outwards, one), (back, other)) =
+                (predicted(&stroke.outwards, friction)?, predicted(&stroke.back, -friction)?);
+            Some((outwards - back, one + other))
+        };
+        let contact = |reading: &TouchReading| reading.base_angle - reading.in_air;
+        let measured = contact(&stroke.outwards) - contact(&stroke.back);
+        let variance = math::square(stroke.outwards.deviation) + math::square(stroke.back.deviation);
+        let (mut friction, mut found) = (0.0, None);
+        for _ in 0..FRICTION_STEPS {
+            let ((here, pose_variance), (beside, _)) = (difference(friction)?, difference(friction + FRICTION_STEP)?);
+            let slope = (beside - here) / FRICTION_STEP;
+            friction = (friction + (measured - here) / slope).clamp(-MOST_FRICTION, MOST_FRICTION);
+            found = Some((friction, (variance + pose_variance) / math::square(slope)));
+        }
+        found.filter(|(friction, variance)| friction.is_finite() && *variance > 0.0)
     }
 
     /// The whisker as perception should model it.
     #[must_use]
     pub fn measured(&self) -> MeasuredWhisker {
-        parameters::measured(&self.whisker, &self.parameters, &self.covariance)
+        parameters::measured(&self.whisker, &self.parameters, &self.covariance, self.sliding_friction)
     }
+}
+
+/// The friction before any stroke.
+fn unknown_friction() -> [f64; 2] {
+    [0.0, parameters::tolerances()[Parameter::Friction.index()]]
 }
 
 /// The prior with the offset that the newest reading in the air shows.

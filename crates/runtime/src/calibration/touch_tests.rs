@@ -4,7 +4,7 @@
 
 use super::parameters::{self, COUNT, Parameter, Parameters};
 use super::workspace::Workspace;
-use super::{PlannedTouch, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal};
+use super::{PlannedTouch, Stroke, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal};
 use crate::geometry::{Pose, Vector2};
 use crate::math;
 use crate::mechanics::Obstacle;
@@ -132,6 +132,35 @@ fn the_ellipsoid_of_drawn_whiskers_has_their_true_parameters_in_95_percent_of_al
     println!("within {within}, accepted {accepted}, error {:.3e}, deviation {:.3e}", mean(&|e| e.0), mean(&|e| e.1));
     assert!((20..=24).contains(&within), "{within} of 24");
     assert!(accepted >= 23, "{accepted} of 24");
+}
+
+#[test]
+fn strokes_show_the_friction_of_a_whisker_that_slides() {
+    for (seed, friction) in [(0, 0.0), (1, 0.05), (2, 0.1), (3, 0.3)] {
+        let mut random = Random(seed);
+        let (whisker, truth) = (left(), drawn(&mut random));
+        let (fit, readings) = calibrated(&whisker, &truth, 12, &mut random, |_, _| ());
+        // The pin slides over the places of the touches. A stroke takes so little time that its poses are hardly noisy.
+        let noise = TouchNoise { position: 1e-5, heading: 1e-5 };
+        let strokes = readings.iter().filter_map(|reading| {
+            let Obstacle::Pin { centre, .. } = reading.obstacle else { return None };
+            let planned = PlannedTouch {
+                pin_base: whisker.base_pose().point_from_world(centre),
+                side: reading.side,
+                base_angle: reading.base_angle,
+            };
+            let mut sliding = |friction: f64| {
+                let mut truth = truth;
+                truth[Parameter::Friction.index()] = friction;
+                touched(&whisker, &truth, &planned, &noise, &mut random)
+            };
+            Some(Stroke { outwards: sliding(friction)?, back: sliding(-friction)? })
+        });
+        let strokes: Vec<_> = strokes.collect();
+        let [found, deviation] = fit.with_strokes(&strokes, &noise).sliding_friction;
+        assert!((found - friction).abs() < 3.0 * deviation + 0.05 * friction, "{friction}: {found} ± {deviation}");
+        assert!(deviation < 0.01, "{deviation}");
+    }
 }
 
 #[test]

@@ -4,6 +4,8 @@ use crate::geometry::{Pose, Vector2, perpendicular, rotate, turn_between, unit};
 use crate::math;
 use crate::rig::Whisker;
 
+use super::platform_motion::Motion;
+
 /// The base angle of an undeflected whisker on a platform that accelerates or rotates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Inertia {
@@ -55,6 +57,13 @@ pub(super) struct Acceleration {
     /// Yaw rate (rad/s) and its change (rad/s²).
     yaw_rate: f64,
     yaw: f64,
+}
+
+impl Acceleration {
+    /// The acceleration of a platform with this speed (m/s, rad/s) and its growth in a second, and with this heading (rad).
+    pub(super) fn of([speed, growth]: [Motion; 2], heading: f64) -> Self {
+        Self { linear_body: rotate(growth.xy(), -heading), yaw_rate: speed.z, yaw: growth.z }
+    }
 }
 
 /// Acceleration of a platform from its measured poses.

@@ -2,6 +2,7 @@
 //! local contour behind a tip, and the detection of a blocked body.
 
 mod base_angle;
+mod command_delay;
 mod contact;
 mod contact_estimator;
 mod disturbance;

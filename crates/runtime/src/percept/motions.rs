@@ -4,18 +4,24 @@ use crate::geometry::Pose;
 use crate::rig::{Estimation, Rig};
 use crate::signal::{Command, Sample};
 
+use super::command_delay::CommandDelay;
+use super::inertia::Acceleration;
 use super::platform_motion::{Motion, PlatformMotion};
 use super::pose_delay::{Misfit, PoseDelay};
 use super::pose_noise::{PoseDeviation, PoseNoise};
 
 /// The delays of poses and commands, and the poses without them.
 ///
-/// Commands and poses give the sum of both delays, and the errors of poses. Contacts give the delay of poses alone.
+/// Commands and poses give the sum of both delays, and the errors of poses. Contacts give the delay of poses alone, and the
+/// inertia of whiskers in free air that of commands.
 #[derive(Debug, Clone)]
 pub(super) struct Motions {
     platform: PlatformMotion,
     contacts: PoseDelay,
+    commands: CommandDelay,
     noise: PoseNoise,
+    /// Heading (rad) of the last measured pose, or NaN.
+    heading: f64,
     /// Delay (s) of poses that is corrected.
     pose: f64,
     /// What is corrected.
@@ -34,7 +40,9 @@ impl Motions {
         Self {
             platform: PlatformMotion::new(rig),
             contacts: PoseDelay::new(),
+            commands: CommandDelay::new(),
             noise: PoseNoise::new(),
+            heading: f64::NAN,
             pose: 0.0,
             estimation: rig.sensing.estimation,
             following,
@@ -67,11 +75,23 @@ impl Motions {
         self.contacts.add(misfit, self.pose);
     }
 
+    /// Adds the mean reading (rad) of a whisker in free air without its offset, and its standard deviation (rad). `bent` is
+    /// its base angle (rad) on a platform that accelerates.
+    pub(super) fn add_free(&mut self, reading: f64, deviation: f64, bent: impl Fn(&Acceleration) -> f64) {
+        let heading = self.heading;
+        if self.delay() > 0.0 && self.platform.is_settled() && heading.is_finite() {
+            let platform = &self.platform;
+            self.commands.add(reading, deviation, |delay| bent(&Acceleration::of(platform.speed(delay), heading)));
+        }
+    }
+
     /// Ends a tick with the measured `pose`, which may be unknown.
     pub(super) fn end(&mut self, pose: Pose) {
         let difference = self.platform.compare(pose);
         self.noise.take(difference);
-        let measured = self.contacts.value(self.delay());
+        self.heading = pose.heading;
+        let total = self.delay();
+        let measured = self.contacts.value(total, |delay| self.commands.cost(total - delay));
         self.pose += (measured - self.pose) * self.following;
     }
 

@@ -268,6 +268,10 @@ impl Perception {
         for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
             if let Some([reading, bent, deviation]) = whisker.free_reading(&acceleration) {
                 offsets.measure(index, reading, bent, deviation);
+                if let Some(motions) = &mut self.motions {
+                    let offset = offsets.value(index);
+                    motions.add_free(reading - offset, deviation, |acceleration| whisker.bent_by(acceleration));
+                }
             }
         }
     }

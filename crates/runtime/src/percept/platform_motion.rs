@@ -37,6 +37,8 @@ pub(super) struct PlatformMotion {
     servo: f64,
     /// Measured delay (s) of a pose behind its command.
     delay: f64,
+    /// True if delay and servo hardly change any more.
+    is_settled: bool,
 }
 
 /// A platform with the time constant of one servo.
@@ -85,6 +87,8 @@ const LEAST_DELAY: f64 = 8e-3;
 const LEAST_RATIO: f64 = 1.2;
 /// Relative difference of time constants that has no effect.
 const NEAR: f64 = 1e-3;
+/// Difference of a delay (s), and relative difference of a time constant, that is still to be followed.
+const SETTLED: (f64, f64) = (4e-3, 0.1);
 /// Time (s) in which a correction follows what is measured.
 const FOLLOWING: f64 = 1.0;
 
@@ -115,6 +119,7 @@ impl PlatformMotion {
             stated_servo,
             servo: stated_servo,
             delay: 0.0,
+            is_settled: false,
         }
     }
 
@@ -188,6 +193,7 @@ impl PlatformMotion {
             }
         }
         if stated < LEAST_COST || best > MOST_LEFT * stated {
+            self.is_settled = false;
             return;
         }
         let by_delay = |delay: usize| self.costs[at.0][delay];
@@ -197,9 +203,24 @@ impl PlatformMotion {
         let ratio = math::powf(2.0, (at.0 as f64 + vertex(at.0, SERVOS.len(), by_servo) - STATED as f64) / 2.0);
         let delay = if delay < LEAST_DELAY { 0.0 } else { delay };
         let ratio = if ratio < LEAST_RATIO && ratio * LEAST_RATIO > 1.0 { 1.0 } else { ratio };
+        let servo = ratio * self.stated_servo;
+        self.is_settled = (delay - self.delay).abs() < SETTLED.0 && (servo - self.servo).abs() < SETTLED.1 * servo;
         let share = math::min(self.period / FOLLOWING, 1.0);
         self.delay += (delay - self.delay) * share;
-        self.servo += (ratio * self.stated_servo - self.servo) * share;
+        self.servo += (servo - self.servo) * share;
+    }
+
+    /// True if delay and servo hardly change any more.
+    pub(super) fn is_settled(&self) -> bool {
+        self.is_settled
+    }
+
+    /// Speed (m/s, rad/s) in the newest tick, and its growth in a second since the tick before, of a platform with this
+    /// `delay` (s).
+    pub(super) fn speed(&self, delay: f64) -> [Motion; 2] {
+        let [now, before] =
+            [0.0, self.period].map(|ago| self.between(delay + ago + self.period, delay + ago) / self.period);
+        [now, (now - before) / self.period]
     }
 
     /// The expected motion from `from` to `to` (s) before the newest step.

@@ -53,13 +53,14 @@ impl PoseDelay {
         }
     }
 
-    /// The delay (s), at most `most`. 0 unless it is significant.
-    pub(super) fn value(&self, most: f64) -> f64 {
-        let possible =
-            self.costs.iter().enumerate().filter(|(index, _)| *index as f64 * SPACING <= most + 0.5 * SPACING);
+    /// The delay (s), at most `most`. 0 unless it is significant. `other` is what a delay (s) leaves of other measurements,
+    /// in squared standard deviations.
+    pub(super) fn value(&self, most: f64, other: impl Fn(f64) -> f64) -> f64 {
+        let costs: [f64; DELAYS] = std::array::from_fn(|index| self.costs[index] + other(index as f64 * SPACING));
+        let possible = costs.iter().enumerate().filter(|(index, _)| *index as f64 * SPACING <= most + 0.5 * SPACING);
         match possible.min_by(|(_, a), (_, b)| a.total_cmp(b)) {
-            Some((index, cost)) if self.costs[0] - cost > SIGNIFICANT => {
-                let between = vertex(index, DELAYS, |index| self.costs[index]);
+            Some((index, cost)) if costs[0] - cost > SIGNIFICANT => {
+                let between = vertex(index, DELAYS, |index| costs[index]);
                 math::min((index as f64 + between) * SPACING, most)
             }
             _ => 0.0,
@@ -86,8 +87,8 @@ mod tests {
                 let distance = by_delay * (delay - corrected) + 1e-5 * pair[1] + slip;
                 poses.add(&Misfit { distance, by_delay, variance: 1e-10 }, corrected);
             }
-            prop_assert!(poses.value(most) <= most);
-            prop_assert!((poses.value(1.0) - delay).abs() < 0.006, "{} s", poses.value(1.0));
+            prop_assert!(poses.value(most, |_| 0.0) <= most);
+            prop_assert!((poses.value(1.0, |_| 0.0) - delay).abs() < 0.006, "{} s", poses.value(1.0, |_| 0.0));
         }
     }
 }

@@ -168,6 +168,11 @@ impl PerceivedWhisker {
         is_at_rest.then(|| [self.sum / count, self.inertia.base_angle(acceleration), self.used_noise / count.sqrt()])
     }
 
+    /// The base angle (rad) in free air on a platform that accelerates.
+    pub(super) fn bent_by(&self, acceleration: &Acceleration) -> f64 {
+        self.inertia.base_angle(acceleration)
+    }
+
     /// The position of the base and the direction of the undeflected shaft, with the platform at `body`.
     fn base(&self, body: Pose) -> Pose {
         let position = body.point_to_world(self.base_body.into());
