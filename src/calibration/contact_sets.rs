@@ -10,12 +10,19 @@ use vibrissa_runtime::calibration::ContactSet;
 use super::count_set::CountSet;
 use crate::geometry::Vector2;
 
-/// The error of a file of contact sets.
+/// The error of a file of contact sets or of touches.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {reason}")]
 pub struct SetsError {
     line: u64,
     reason: String,
+}
+
+impl SetsError {
+    /// The error of a line, from 1.
+    pub(super) fn new(line: u64, reason: String) -> Self {
+        Self { line, reason }
+    }
 }
 
 /// The columns of a file of sets: the required ones beside the reading, and the optional ones.

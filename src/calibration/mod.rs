@@ -7,13 +7,17 @@ mod fit;
 mod hinge_fit;
 #[cfg(feature = "sim")]
 mod simulated_rig;
+mod touch_file;
 mod touch_procedure;
 mod undetermined;
+mod whisker_touches;
 
 pub use contact_sets::{SetsError, read_count_sets, read_sets, write_sets};
 pub use count_set::{CountSet, fit_field};
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
 #[cfg(feature = "sim")]
 pub use simulated_rig::{CalibrationRigError, simulated_sets};
-pub use touch_procedure::{Pin, TouchLimits, WhiskerTouches, start_beside_pin, touch_pin};
+pub use touch_file::{read_touches, write_touches};
+pub use touch_procedure::{Pin, TouchLimits, start_beside_pin, touch_pin};
 pub use undetermined::undetermined;
+pub use whisker_touches::{RefusedWhisker, WhiskerTouches};

@@ -7,6 +7,7 @@ use vibrissa_runtime::mechanics::Obstacle;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::array_pilot::{ArrayPilot, Rest};
+use super::whisker_touches::WhiskerTouches;
 use crate::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
 use crate::world::{Fault, World};
 
@@ -34,25 +35,6 @@ impl Default for TouchLimits {
     fn default() -> Self {
         Self { touches: 20, time: 300.0, deviation: 0.04e-3 }
     }
-}
-
-/// The touches of a whisker and their result.
-#[derive(Debug, Clone)]
-pub struct WhiskerTouches {
-    /// Name of the whisker.
-    pub whisker: String,
-    /// The touches.
-    pub readings: Vec<TouchReading>,
-    /// Number of touches in which the whisker slipped off.
-    pub missed: usize,
-    /// The fit, or the reason why there is none.
-    pub fit: Result<TouchFit, TouchRefusal>,
-    /// Standard deviation of tips (m) that the errors of the fit cause.
-    pub tip_deviation: f64,
-    /// The reading in the air before the first touch (rad).
-    pub first_in_air: f64,
-    /// Duration (s).
-    pub time: f64,
 }
 
 /// Distance (m) of the pin from a straight whisker that passes it. It exceeds the tolerances of the array.
@@ -190,26 +172,17 @@ impl<'p, 'w> Toucher<'p, 'w> {
             }
         }
         self.leave()?;
-        let (readings, noise) = (self.readings(), self.noise());
-        let fit = match self.swapped() {
-            Some(refusal) => Err(refusal),
-            None => self.fitted(&readings, &noise),
-        };
+        let mut touches = WhiskerTouches::fitted(self.rig, self.index, self.readings(), self.noise());
+        touches.fit = touches.fit.map(|fit| fit.with_strokes(&self.strokes(), &touches.noise));
+        if let Some(refusal) = self.swapped() {
+            touches.fit = Err(refusal);
+        }
         Ok(WhiskerTouches {
-            whisker: whisker.name.clone(),
             missed: self.missed.len(),
-            tip_deviation: fit.as_ref().map_or(f64::INFINITY, |fit| plan.tip_deviation(fit)),
             first_in_air: self.in_air.first().map_or(0.0, |rest| rest.base_angle(self.index).0),
-            time: self.pilot.time() - start,
-            readings,
-            fit,
+            time: Some(self.pilot.time() - start),
+            ..touches
         })
-    }
-
-    fn fitted(&self, readings: &[TouchReading], noise: &TouchNoise) -> Result<TouchFit, TouchRefusal> {
-        let others = self.rig.whiskers.iter().enumerate().filter(|(index, _)| *index != self.index);
-        TouchFit::accepted(self.whisker(), readings, noise, others.map(|(_, whisker)| whisker))
-            .map(|fit| fit.with_strokes(&self.strokes(), noise))
     }
 
     /// Moves to a planned touch, rests before it and in it, and moves off the whisker again.
@@ -344,6 +317,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
         Some(TouchReading {
             body: touch.body,
             obstacle: Obstacle::Pin { centre: self.pin.centre, radius: self.pin.radius },
+            is_known: true,
             side,
             base_angle,
             in_air: first + share * (second - first),

@@ -9,14 +9,14 @@ use vibrissa_robot::config::{BoardConfig, Config};
 use vibrissa_runtime::calibration::ContactSet;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
-use super::calibrate_array::calibrate_array;
+use super::calibrate_array::{calibrate_array, calibrate_touches};
 use super::drive::config;
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, MismatchOptions, WorldOptions};
+use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
 use super::trials::make_directory;
-use super::values::parse_seed;
+use super::values::{parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use crate::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load;
@@ -25,16 +25,31 @@ use crate::report::{held_out_table, profile_picture};
 use crate::results::Document;
 use crate::scenario::{write_calibration, write_robot_calibration};
 
-const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n  vibrissa calibrate --self --mismatch scenarios/mismatch/plausible.yaml --out out\n\nExit status: 0 done; 1 a whisker is refused; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n  vibrissa calibrate --self --mismatch scenarios/mismatch/plausible.yaml --out out\n  vibrissa calibrate --touches out/touches.csv --rig my-rig.yaml --out measured\n\nExit status: 0 done; 1 a whisker is refused; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa calibrate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-#[command(group = ArgGroup::new("of_array").args(["mismatch_file", "mismatch_seed", "world", "no_prune"]).multiple(true).requires("itself"))]
+#[command(group = ArgGroup::new("of_array").args(["mismatch_file", "mismatch_seed", "world", "no_prune", "jobs"]).multiple(true).requires("itself"))]
 pub(super) struct CalibrateArguments {
     /// Let the array of the rig touch a pin and measure its own whiskers, in a simulator. Writes a calibration for each whisker
     #[arg(long = "self", conflicts_with_all = ["sets", "config", "whisker"])]
     itself: bool,
+    /// Number of arrays, from 1 to 100000. Each further array has the next seeds. For statistics, without `--out`
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "itself", conflicts_with = "out", allow_negative_numbers = true, value_parser = parse_runs)]
+    pub(super) arrays: u64,
+    #[command(flatten)]
+    pub(super) jobs: Jobs,
+    /// Measured touches of a pin, edges or faces by any whiskers of the rig, as comma-separated values. Writes a calibration for each
+    /// whisker that has touches
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "whisker", "noise"])]
+    touches: Option<PathBuf>,
+    /// Standard deviation of the position of the platform relative to the object in measured touches, in each direction
+    #[arg(long, value_name = "LENGTH", default_value = "0.05 mm", requires = "touches", value_parser = parse_jitter)]
+    pub(super) position_noise: f64,
+    /// Standard deviation of the heading of the platform in measured touches
+    #[arg(long, value_name = "ANGLE", default_value = "0.02 deg", requires = "touches", value_parser = parse_jitter_heading)]
+    pub(super) heading_noise: f64,
     #[command(flatten)]
     pub(super) world: WorldOptions,
     #[command(flatten)]
@@ -88,6 +103,9 @@ impl Document for Printed<'_> {
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     if arguments.itself {
         return calibrate_array(arguments);
+    }
+    if let Some(path) = &arguments.touches {
+        return calibrate_touches(path, arguments);
     }
     let mut files = CommandFiles::new();
     let robot = match &arguments.config {

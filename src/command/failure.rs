@@ -171,6 +171,8 @@ pub(super) enum Failure {
     Record(#[from] WriteError),
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
+    #[error("the touches cannot be written: {0}; this is a fault of the program, please report it")]
+    Touches(#[from] csv::Error),
 }
 
 impl Failure {
@@ -198,7 +200,11 @@ impl Failure {
 
     pub(super) fn exit(&self) -> Exit {
         match self {
-            Self::Json(_) | Self::NoDraw(NoDraw::Random { .. }) | Self::NoCase(_) | Self::Answer(_) => Exit::Internal,
+            Self::Json(_)
+            | Self::Touches(_)
+            | Self::NoDraw(NoDraw::Random { .. })
+            | Self::NoCase(_)
+            | Self::Answer(_) => Exit::Internal,
             _ => Exit::Unusable,
         }
     }

@@ -16,7 +16,9 @@ pub(crate) use policy::{
     with_libraries, with_settings,
 };
 pub(crate) use recording::recording;
-pub(crate) use scenario::{beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in};
+pub(crate) use scenario::{
+    beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in, touches,
+};
 pub(crate) use text::{read, read_standard};
 
 use sha2::Sha256;

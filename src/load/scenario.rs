@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use vibrissa_runtime::calibration::ContactSet;
+use vibrissa_runtime::calibration::{ContactSet, TouchReading};
 
 use super::text::{read, reason};
 use super::{LoadError, Loaded};
 use crate::built_in::TextFile;
-use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets};
+use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_touches};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::outline;
@@ -65,6 +65,11 @@ pub(crate) fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<
 /// Reads measured contacts with counts of the sensor.
 pub(crate) fn count_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<CountSet>, LoadError> {
     sets(path, files, read_count_sets)
+}
+
+/// Reads measured touches of a known object, each with the name of its whisker.
+pub(crate) fn touches(path: &Path, files: &mut CommandFiles) -> Result<Vec<(String, TouchReading)>, LoadError> {
+    sets(path, files, read_touches)
 }
 
 fn sets<T>(

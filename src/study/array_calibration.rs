@@ -1,9 +1,9 @@
 //! The calibration of a simulated array by its own touches of a pin.
 
-use vibrissa_runtime::calibration::{Calibration, TouchRefusal};
-use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::calibration::{Calibration, Parameter, Parameters};
+use vibrissa_runtime::rig::{Rig, Whisker};
 
-use crate::calibration::{Pin, TouchLimits, WhiskerTouches, start_beside_pin, touch_pin};
+use crate::calibration::{Pin, RefusedWhisker, TouchLimits, WhiskerTouches, start_beside_pin, touch_pin};
 use crate::geometry::{Point2, ShapeError, circle};
 use crate::scene::{Scene, Truth, WorldSetup};
 use crate::solid::{Solid, SolidError};
@@ -17,6 +17,8 @@ pub struct ArrayCalibration {
     pub pin: Pin,
     /// The whiskers, in the order of the rig.
     pub whiskers: Vec<WhiskerTouches>,
+    /// The true parameters of each whisker, as differences from the rig. They serve verdicts alone.
+    pub truths: Vec<Parameters>,
 }
 
 /// The error of a calibration of an array.
@@ -35,17 +37,47 @@ pub enum ArrayCalibrationError {
     #[error("the calibration stopped: {0}")]
     Fault(#[from] Fault),
     /// A whisker cannot be calibrated.
-    #[error("whisker `{whisker}` is not calibrated: {refusal}")]
-    Refused {
-        /// Name of the whisker.
-        whisker: String,
-        /// The reason.
-        refusal: TouchRefusal,
-    },
+    #[error(transparent)]
+    Refused(#[from] RefusedWhisker),
 }
 
 /// Radius of the pin, as a share of the longest whisker.
 const PIN: f64 = 0.1;
+
+/// Number of parameters of a whisker that do not drift. They are the first ones.
+const CONSTANT: usize = Parameter::Offset as usize;
+/// The 95 % quantile of chi-square with so many degrees of freedom.
+const CHI_SQUARE: f64 = 14.067;
+
+/// The true parameters of the whiskers of a scene, as differences from its rig. A stiffer shaft and a greater gain have the
+/// effect of a softer hinge.
+fn true_parameters(scene: &Scene) -> Vec<Parameters> {
+    let array = scene.true_array();
+    let parameters = |(index, assumed): (usize, &Whisker)| {
+        let mut parameters = Parameters::zeros();
+        let Some((true_one, sensor)) =
+            array.as_ref().and_then(|array| Some((array.rig.whiskers.get(index)?, array.sensors.get(index)?)))
+        else {
+            return parameters;
+        };
+        let stiffer = true_one.shaft.bending_stiffness() / assumed.shaft.bending_stiffness();
+        let hinge = true_one.hinge.stiffness / assumed.hinge.stiffness;
+        let base = true_one.base_body - assumed.base_body;
+        for (parameter, value) in [
+            (Parameter::Stiffness, hinge / (stiffer * (1.0 + sensor.gain)) - 1.0),
+            (Parameter::Length, true_one.shaft.length - assumed.shaft.length),
+            (Parameter::Direction, true_one.direction_body - assumed.direction_body),
+            (Parameter::BaseX, base.x),
+            (Parameter::BaseY, base.y),
+            (Parameter::Curvature, true_one.shaft.curvature - assumed.shaft.curvature),
+            (Parameter::Taper, true_one.shaft.taper() - assumed.shaft.taper()),
+        ] {
+            parameters[parameter.index()] = value;
+        }
+        parameters
+    };
+    scene.rig.whiskers.iter().enumerate().map(parameters).collect()
+}
 
 impl ArrayCalibration {
     /// Calibrates the true array of a scene in a world with nothing but a pin. `seed` fixes the noise.
@@ -71,7 +103,21 @@ impl ArrayCalibration {
             whisker.calibration = None;
         }
         let mut simulated = build_world(&scene, world, seed)?;
-        Ok(Self { pin, whiskers: touch_pin(simulated.as_mut(), &scene.rig, pin, limits)? })
+        let whiskers = touch_pin(simulated.as_mut(), &scene.rig, pin, limits)?;
+        Ok(Self { pin, whiskers, truths: true_parameters(&scene) })
+    }
+
+    /// True for each whisker whose true parameters are within the ellipsoid of its fit with a probability of 95 %. The offset
+    /// does not count, because it drifts. `None` for a refused whisker.
+    #[must_use]
+    pub fn within(&self) -> Vec<Option<bool>> {
+        let is_within = |(touches, truth): (&WhiskerTouches, &Parameters)| {
+            let fit = touches.fit.as_ref().ok()?;
+            let difference = (fit.parameters - truth).fixed_rows::<CONSTANT>(0).into_owned();
+            let inverse = fit.covariance.fixed_view::<CONSTANT, CONSTANT>(0, 0).try_inverse()?;
+            Some(difference.dot(&(inverse * difference)) <= CHI_SQUARE)
+        };
+        self.whiskers.iter().zip(&self.truths).map(is_within).collect()
     }
 
     /// The calibration of every whisker, in the order of the rig.
@@ -79,16 +125,7 @@ impl ArrayCalibration {
     /// # Errors
     /// [`ArrayCalibrationError::Refused`] with the first whisker that was refused.
     pub fn calibrations(&self) -> Result<Vec<Calibration>, ArrayCalibrationError> {
-        let calibration = |touches: &WhiskerTouches| {
-            let WhiskerTouches { whisker, readings, fit, .. } = touches;
-            let fit = fit.as_ref().map_err(|refusal| ArrayCalibrationError::Refused {
-                whisker: whisker.clone(),
-                refusal: refusal.clone(),
-            })?;
-            let about = format!("{whisker}, {} touches of a pin", readings.len());
-            Ok(Calibration { measured: Some(fit.measured()), ..Calibration::new(about) })
-        };
-        self.whiskers.iter().map(calibration).collect()
+        Ok(self.whiskers.iter().map(WhiskerTouches::calibration).collect::<Result<_, _>>()?)
     }
 
     /// Gives the whiskers of a rig their calibrations, for runs that begin when the touches began. So the offset is that

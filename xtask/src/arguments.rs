@@ -28,7 +28,7 @@ Commands:
             --save         make them the baseline
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
             --program FILE use this program of the same commit instead of building it
-  nightly run the families of docs/results/families.md again and print the verdicts that changed
+  nightly run the families of docs/results/families.md again and print the verdicts that changed; calibrate drawn arrays
             --count N      only the first N scenes of each family
             --program FILE use this program instead of building it
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi

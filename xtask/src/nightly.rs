@@ -1,6 +1,8 @@
-//! The published pass rates of the families of random scenes, compared with those of the program.
+//! The published pass rates of the families of random scenes, compared with those of the program, and the calibrations of drawn
+//! arrays.
 
 mod binomial;
+mod ellipsoids;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,6 +12,7 @@ use thiserror::Error;
 
 use crate::results::{self, FAMILIES, FOLDER, NoKey, PageError, ResultsError, SIMULATORS, Verdicts, joined};
 use binomial::{interval, sign_test};
+use ellipsoids::{CALIBRATIONS, Ellipsoids};
 
 /// The page of the pass rates, in [`FOLDER`].
 const PAGE: &str = "families.md";
@@ -19,7 +22,7 @@ const SIGNIFICANT: f64 = 0.05;
 /// The scenes to run, and the program to run them with.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(crate) struct Options {
-    /// Only so many scenes of each family.
+    /// Only so many scenes of each family, and arrays.
     pub(crate) count: Option<u64>,
     /// A program that is there already, instead of one that is built.
     pub(crate) program: Option<PathBuf>,
@@ -33,19 +36,26 @@ pub(crate) enum NightlyError {
          and commit the page"
     )]
     Changed(usize),
+    #[error(
+        "the 95 % ellipsoids of the calibration have the true parameters of {within} of {accepted} whiskers, and should have those of \
+         90 to 99 %. Look at the noise that the fit assumes"
+    )]
+    Ellipsoids { within: u64, accepted: u64 },
     #[error("cannot read {}: {source}. `cargo x results families` writes it", path.display())]
     Read { path: PathBuf, source: io::Error },
     #[error("{FOLDER}/{PAGE}: {0}. `cargo x results families` writes it anew")]
     Page(#[from] PageError),
     #[error("{FOLDER}/{PAGE} has no scenes of `{family}`, {simulator}. `cargo x results families` adds them")]
     Unpublished { family: String, simulator: String },
-    #[error("{0} in the output of `vibrissa families`. Was it renamed? Correct xtask/src/results/verdicts.rs")]
+    #[error(
+        "{0} in the output of `vibrissa`. Was it renamed? Correct xtask/src/results/verdicts.rs or xtask/src/nightly/ellipsoids.rs"
+    )]
     Key(#[from] NoKey),
     #[error(transparent)]
     Results(#[from] ResultsError),
 }
 
-/// Runs the scenes of the page again, and prints the verdicts that changed.
+/// Runs the scenes of the page again, and prints the verdicts that changed. Then calibrates drawn arrays.
 pub(crate) fn nightly(root: &Path, options: &Options) -> Result<(), NightlyError> {
     let path = root.join(FOLDER).join(PAGE);
     let page = fs::read_to_string(&path).map_err(|source| NightlyError::Read { path, source })?;
@@ -65,13 +75,37 @@ pub(crate) fn nightly(root: &Path, options: &Options) -> Result<(), NightlyError
             changed += usize::from(before != found);
         }
     }
-    if changed == 0 { Ok(()) } else { Err(NightlyError::Changed(changed)) }
+    let ellipsoids = calibrate(root, options)?;
+    if changed > 0 {
+        return Err(NightlyError::Changed(changed));
+    }
+    let Ellipsoids { within, accepted, .. } = ellipsoids;
+    // A share of a few arrays says nothing.
+    if options.count.is_none() && !ellipsoids.are_right() {
+        return Err(NightlyError::Ellipsoids { within, accepted });
+    }
+    Ok(())
 }
 
-/// The command with at most `count` scenes of each family. The first scenes are the same for every count.
+/// Calibrates drawn arrays, and prints how many ellipsoids have the true parameters.
+fn calibrate(root: &Path, options: &Options) -> Result<Ellipsoids, NightlyError> {
+    let command = limited(CALIBRATIONS, options.count);
+    let output = results::output(root, options.program.as_deref(), &command)?;
+    let found = Ellipsoids::of(output.items())?;
+    let Ellipsoids { whiskers, accepted, within, touches } = found;
+    println!(
+        "\nCalibrations: vibrissa {command}\n  {accepted} of {whiskers} whiskers are accepted, with at most {touches} touches\n  \
+         true parameters of {within} of {accepted} within the 95 % ellipsoid"
+    );
+    Ok(found)
+}
+
+/// The command with at most `count` scenes of each family, or arrays. The first ones are the same for every count.
 fn limited(command: &str, count: Option<u64>) -> String {
     let mut words: Vec<_> = command.split(' ').map(str::to_owned).collect();
-    if let (Some(count), Some(at)) = (count, words.iter().position(|word| word == "--count")) {
+    if let (Some(count), Some(at)) =
+        (count, words.iter().position(|word| ["--count", "--arrays"].contains(&word.as_str())))
+    {
         let all = words[at + 1].parse().unwrap_or(count);
         words[at + 1] = count.min(all).to_string();
     }
@@ -136,6 +170,7 @@ mod tests {
             let few = limited(command, Some(3));
             assert!(few.starts_with("families --count 3 --seed 11 --world ") && few.ends_with(" --json"), "{few}");
         }
+        assert!(limited(CALIBRATIONS, Some(3)).contains(" --arrays 3 --json"));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod mismatch;
 mod pages;
+mod readme;
 mod reproduction;
 mod sums;
 mod table;
@@ -23,7 +24,7 @@ use crate::setup::{self, Options, SetupError};
 use crate::sign_of_life::SignOfLife;
 pub(crate) use pages::FAMILIES;
 use pages::{PAGES, Page};
-pub(crate) use table::NoKey;
+pub(crate) use table::{NoKey, number, value};
 pub(crate) use verdicts::{PageError, SIMULATORS, Verdicts, joined};
 
 /// The folder of the pages.
@@ -58,6 +59,8 @@ pub(crate) enum ResultsError {
     Key { page: &'static str, source: NoKey },
     #[error("git does not tell the commit of the program: {0}. Run this in a clone with its history")]
     Git(String),
+    #[error("README.md has no table that begins with `| scene |`; restore it")]
+    NoTable,
     #[error("cannot write {}: {source}; look at its permissions", path.display())]
     Write { path: PathBuf, source: io::Error },
     #[error(transparent)]
@@ -87,7 +90,16 @@ pub(crate) fn write(root: &Path, selection: &Selection) -> Result<(), ResultsErr
         written.map_err(|source| ResultsError::Write { path: path.clone(), source })?;
         eprintln!("      {} after {} s", path.display(), start.elapsed().as_secs());
     }
-    Ok(())
+    write_readme(root)
+}
+
+/// Writes the figures of the pages into the table of README.md.
+fn write_readme(root: &Path) -> Result<(), ResultsError> {
+    let path = root.join("README.md");
+    let page = |name: &str| fs::read_to_string(root.join(FOLDER).join(name)).unwrap_or_default();
+    let readme = fs::read_to_string(&path).unwrap_or_default();
+    let readme = readme::with_figures(&readme, &page("bench.md"), &page("mismatch.md")).ok_or(ResultsError::NoTable)?;
+    fs::write(&path, readme).map_err(|source| ResultsError::Write { path, source })
 }
 
 /// The pages of these names, or all that are not slow.
@@ -202,25 +214,6 @@ mod tests {
         assert!(names(&[]).is_ok_and(|names| names.contains(&"bench") && !names.contains(&"families")));
         assert_eq!(names(&["families"]).ok(), Some(vec!["families"]));
         assert!(names(&["bnech"]).is_err_and(|error| error.to_string().contains("bench, reproduction, friction")));
-    }
-
-    #[test]
-    fn the_table_of_the_readme_has_the_figures_of_the_bench() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-        let text = |name: &str| fs::read_to_string(root.join(name)).unwrap_or_default();
-        let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
-        let (readme, bench) = (text("README.md"), text("docs/results/bench.md"));
-        let rows: Vec<_> = readme.lines().skip_while(|line| !line.starts_with("| scene |")).skip(2).collect();
-        let rows: Vec<_> = rows.into_iter().take_while(|line| line.starts_with('|')).map(cells).collect();
-        assert_eq!(rows.len(), 10);
-        for row in rows {
-            let name = row[1].replace(' ', "-");
-            // The first table with the scene is that of MuJoCo.
-            let of =
-                |policy| bench.lines().find(|line| line.starts_with(&format!("| {name} | `{policy}` | "))).map(cells);
-            let (Some(thesis), Some(vibrissa)) = (of("thesis"), of("vibrissa")) else { panic!("{name} has no row") };
-            assert_eq!(row[3..6], [thesis[5].clone(), vibrissa[5].clone(), vibrissa[11].clone() + " %"], "{name}");
-        }
     }
 
     #[test]

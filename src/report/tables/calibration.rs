@@ -34,7 +34,7 @@ pub(crate) fn measured_table(rows: &[WhiskerTouches]) -> Table {
         };
         vec![
             row.whisker.clone(),
-            format!("{} in {:.0} s", row.readings.len(), row.time),
+            row.readings.len().to_string() + &row.time.map_or_else(String::new, |time| format!(" in {time:.0} s")),
             value(Parameter::Stiffness, 100.0),
             value(Parameter::Length, 1e3),
             value(Parameter::Direction, 1.0_f64.to_degrees()),

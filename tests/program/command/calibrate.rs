@@ -16,6 +16,10 @@ pub(crate) fn sets() -> String {
     text
 }
 
+/// Touches of an edge, as a text.
+pub(crate) const TOUCHES: &str = "whisker,body_x_mm,body_y_mm,heading_deg,object,object_x_mm,object_y_mm,radius_mm,normal_deg,side,\
+    base_angle_urad,in_air_urad,deviation_urad\nl0,0,0,0,edge,-14,110,,,left,150,0.5,0.1\n";
+
 #[test]
 fn touches_from_a_file_become_a_calibration_a_picture_and_a_table() {
     let folder = directory("calibrate");
@@ -151,3 +155,50 @@ buses: [{device: /dev/i2c-1, boards: [{whisker: l0, address: 0x0C}, {whisker: r0
 limits: {speed: 0.1 m/s, yaw_rate: 60 deg/s, base_angle: 1050 urad}
 pose: {udp: {listen: \"0.0.0.0:9751\"}}
 ";
+
+/// The parameters of the whiskers in the JSON of a calibration, and the exit status.
+fn measured(arguments: &[&str]) -> (Option<i32>, Vec<serde_json::Value>) {
+    let output = vibrissa(&[&["calibrate", "--json"], arguments].concat());
+    let all: Vec<serde_json::Value> =
+        serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+    (output.status.code(), all)
+}
+
+#[test]
+fn measured_touches_have_the_fit_of_the_array_that_made_them() {
+    let folder = directory("calibrate_touches");
+    let mismatch = folder.join("soft.yaml").display().to_string();
+    std::fs::write(&mismatch, "stiffness: -4 %\nlength: 0.4 mm\n").unwrap();
+    let [out, again] = ["out", "again"].map(|name| folder.join(name).display().to_string());
+    let (code, by_itself) = measured(&["--self", "--world", "quasistatic", "--mismatch", &mismatch, "--out", &out]);
+    assert_eq!((code, by_itself.len()), (Some(0), 2), "{by_itself:?}");
+    assert!(by_itself.iter().all(|whisker| whisker["within_ellipsoid"] == true), "{by_itself:?}");
+    // Without noise of the poses, only that of the mechanics is left.
+    let touches = format!("{out}/touches.csv");
+    let (code, fitted) =
+        measured(&["--touches", &touches, "--position-noise", "0.01 mm", "--heading-noise", "0 deg", "--out", &again]);
+    assert_eq!(code, Some(0), "{fitted:?}");
+    for (one, other) in by_itself.iter().zip(&fitted) {
+        assert_eq!((&one["whisker"], &one["touches"]), (&other["whisker"], &other["touches"]));
+        for (a, b) in one["parameters"].as_array().unwrap().iter().zip(other["parameters"].as_array().unwrap()) {
+            let [difference, deviation] =
+                ["difference", "deviation"].map(|key| [a, b].map(|of| of[key].as_f64().unwrap()));
+            assert!((difference[0] - difference[1]).abs() < 0.05 * deviation[0], "{a} {b}");
+        }
+    }
+    assert!(std::path::Path::new(&again).join("l0.yaml").exists());
+}
+
+#[test]
+fn touches_of_a_whisker_that_the_rig_lacks_and_too_few_touches_are_refused() {
+    let folder = directory("calibrate_few_touches");
+    let file = folder.join("touches.csv").display().to_string();
+    std::fs::write(&file, TOUCHES).unwrap();
+    let (code, fitted) = measured(&["--touches", &file]);
+    assert_eq!(code, Some(1), "{fitted:?}");
+    assert!(fitted[0]["refusal"].as_str().unwrap().contains("too few"), "{fitted:?}");
+    std::fs::write(&file, TOUCHES.replace("l0,", "l7,")).unwrap();
+    let output = vibrissa(&["calibrate", "--touches", &file]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("`l7`"), "{}", stderr(&output));
+}

@@ -18,6 +18,7 @@ const READ: &[(&str, &str)] = &[
     ("mjcf @/scene.yaml", "r0.yaml"),
     ("bench --policy @/quick.fsm", "quick.fsm"),
     ("calibrate @/measured.csv", "measured.csv"),
+    ("calibrate --touches @/pressed.csv", "pressed.csv"),
     ("calibrate @/measured.csv --rig @/scene.yaml", "scene.yaml"),
     ("compare @/quick.fsm @/quick.fsm", "quick.fsm"),
     ("compare @/quick.fsm @/quick.fsm @/scene.yaml", "scene.yaml"),

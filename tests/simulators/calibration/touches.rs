@@ -5,7 +5,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::mismatch::{Mismatch, Property};
 use vibrissa::scene::{Scene, WorldKind};
 use vibrissa::study::ArrayCalibration;
-use vibrissa_runtime::calibration::Parameter;
+use vibrissa_runtime::calibration::{Parameter, TouchRefusal};
 
 /// A scene with an array that differs from its rig.
 fn scene(mismatch: Mismatch) -> Scene {
@@ -33,13 +33,40 @@ fn an_array_measures_its_own_differences_from_the_rig() {
     }
     let scene = scene(mismatch);
     let found = ArrayCalibration::run(&scene, WorldKind::QuasiStatic.into(), 0, &TouchLimits::default()).unwrap();
+    assert_eq!(found.within(), [Some(true), Some(true)]);
     for touches in &found.whiskers {
         let fit = touches.fit.as_ref().unwrap();
         assert!(touches.tip_deviation < 0.05e-3, "{touches:?}");
         // A stiffer shaft has larger base angles, like a softer hinge.
         let off = fit.parameters[Parameter::Stiffness.index()] - (1.0 / 1.05 - 1.0);
         assert!(off.abs() < 3.0 * fit.covariance[(0, 0)].sqrt(), "{touches:?}");
-        assert!(touches.time < 150.0 && touches.readings.len() <= 20, "{touches:?}");
+        assert!(touches.time.unwrap() < 150.0 && touches.readings.len() <= 20, "{touches:?}");
+    }
+}
+
+#[test]
+fn a_bent_shaft_is_refused_as_bent() {
+    let mut mismatch = Mismatch::default();
+    mismatch.common.set(Property::TipAside, 8e-3);
+    let found =
+        ArrayCalibration::run(&scene(mismatch), WorldKind::QuasiStatic.into(), 0, &TouchLimits::default()).unwrap();
+    for touches in &found.whiskers {
+        assert!(matches!(touches.fit, Err(TouchRefusal::Bent { .. })), "{:?}", touches.fit);
+    }
+    assert_eq!(found.within(), [None, None]);
+}
+
+#[test]
+fn a_shaft_that_belongs_to_another_base_is_refused_as_swapped() {
+    let mut mismatch = Mismatch::default();
+    mismatch.whiskers.entry("l0".to_owned()).or_default().set(Property::Length, -15e-3);
+    let mut scene = scene(mismatch);
+    // The rig has a short whisker on the other side.
+    scene.rig.whiskers.iter_mut().find(|whisker| whisker.name == "r0").unwrap().shaft.length -= 15e-3;
+    let found = ArrayCalibration::run(&scene, WorldKind::QuasiStatic.into(), 0, &TouchLimits::default()).unwrap();
+    for touches in &found.whiskers {
+        let is_swapped = matches!(&touches.fit, Err(TouchRefusal::Swapped { reason, .. }) if reason.contains("`r0`"));
+        assert_eq!(is_swapped, touches.whisker == "l0", "{:?}", touches.fit);
     }
 }
 
@@ -53,5 +80,5 @@ fn a_plausible_array_is_accepted_within_five_minutes() {
         let [friction, deviation] = touches.fit.as_ref().unwrap().sliding_friction;
         assert!((friction - 0.1).abs() < 3.0 * deviation && deviation < 0.02, "{friction} ± {deviation}");
     }
-    assert!(found.whiskers.iter().map(|touches| touches.time).sum::<f64>() < 300.0);
+    assert!(found.whiskers.iter().map(|touches| touches.time.unwrap()).sum::<f64>() < 300.0);
 }

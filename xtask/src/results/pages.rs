@@ -102,8 +102,15 @@ pub(super) const PAGES: [Page; 14] = [
     Page {
         name: "mismatch",
         title: "Results with mismatches",
-        about: "The scenes of [the bench](../bench.md) in MuJoCo with one [mismatch](../mismatch.md) at a time between the true array and the assumed one.",
-        commands: &["sweep sweeps/mismatch.yaml --out out/mismatch --json"],
+        about: "The scenes of [the bench](../bench.md) in MuJoCo with a [mismatch](../mismatch.md) between the true array and the assumed one.",
+        commands: &[
+            "bench --json",
+            "bench --mismatch scenarios/mismatch/plausible.yaml --json",
+            "bench --mismatch scenarios/mismatch/plausible.yaml --uncalibrated --json",
+            "bench --mismatch scenarios/mismatch/hard.yaml --json",
+            "bench --mismatch scenarios/mismatch/hard.yaml --uncalibrated --json",
+            "sweep sweeps/mismatch.yaml --out out/mismatch --json",
+        ],
         has_times: false,
         is_slow: true,
         body: mismatch::page,
@@ -178,7 +185,7 @@ pub(super) const PAGES: [Page; 14] = [
     Page {
         name: "pareto",
         title: "Results of run time against error",
-        about: "[Settings of the simulators](../pareto.md) on the disk under `vibrissa.fsm`, medians of three rounds.",
+        about: "[Settings of the simulators and contact estimators](../pareto.md) on the disk under both built-in policies, medians of three rounds. The mismatch is that of `scenarios/mismatch/plausible.yaml`.",
         commands: &["pareto --json"],
         has_times: true,
         is_slow: false,

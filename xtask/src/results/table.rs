@@ -46,7 +46,7 @@ impl Show {
 }
 
 /// The value behind a path. What is behind null is null, but a key that an object lacks is an error.
-pub(super) fn value<'a>(row: &'a Json, path: &str) -> Result<&'a Json, NoKey> {
+pub(crate) fn value<'a>(row: &'a Json, path: &str) -> Result<&'a Json, NoKey> {
     path.split('.').try_fold(row, |value, key| match value {
         Json::Null => Ok(value),
         value => value.get(key).ok_or_else(|| NoKey(path.to_owned())),
@@ -54,7 +54,7 @@ pub(super) fn value<'a>(row: &'a Json, path: &str) -> Result<&'a Json, NoKey> {
 }
 
 /// The number behind a path; zero if it is null.
-pub(super) fn number(row: &Json, path: &str) -> Result<f64, NoKey> {
+pub(crate) fn number(row: &Json, path: &str) -> Result<f64, NoKey> {
     Ok(if let Json::Number(number) = value(row, path)? { *number } else { 0.0 })
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::geometry::unit;
 use crate::math;
 use crate::mechanics::{Obstacle, TouchMechanics};
 use crate::rig::Whisker;
@@ -31,6 +32,10 @@ pub enum Parameter {
     Friction,
     /// Play of the hinge (rad): what is added to the base angle in the direction of the bend.
     Play,
+    /// Displacement of the touched face (m) along its normal from where it was said to be.
+    FaceHeight,
+    /// Rotation of the touched face (rad, counter-clockwise) about the given point of it.
+    FaceTurn,
 }
 
 impl Parameter {
@@ -47,6 +52,8 @@ impl Parameter {
         Self::Offset,
         Self::Friction,
         Self::Play,
+        Self::FaceHeight,
+        Self::FaceTurn,
     ];
     /// Number of those that are properties of the whisker.
     pub const WHISKER: usize = 8;
@@ -67,6 +74,8 @@ impl Parameter {
             Self::Offset => "offset",
             Self::Friction => "friction",
             Self::Play => "play",
+            Self::FaceHeight => "face height",
+            Self::FaceTurn => "face turn",
         }
     }
 
@@ -78,14 +87,14 @@ impl Parameter {
 }
 
 /// Number of parameters.
-pub(super) const COUNT: usize = 10;
+pub(super) const COUNT: usize = 12;
 /// A value for every parameter.
 pub type Parameters = SVector<f64, COUNT>;
 /// The covariance of all parameters.
 pub type ParameterCovariance = SMatrix<f64, COUNT, COUNT>;
 
 /// Steps of the parameters for derivatives.
-const STEPS: [f64; COUNT] = [1e-5, 1e-6, 1e-5, 1e-6, 1e-6, 1e-4, 1e-5, 1e-9, 1e-4, 1e-9];
+const STEPS: [f64; COUNT] = [1e-5, 1e-6, 1e-5, 1e-6, 1e-6, 1e-4, 1e-5, 1e-9, 1e-4, 1e-9, 1e-6, 1e-5];
 
 /// Tolerances of manufacture and mounting: the standard deviations of the parameters before any touch.
 ///
@@ -94,7 +103,7 @@ const STEPS: [f64; COUNT] = [1e-5, 1e-6, 1e-5, 1e-6, 1e-6, 1e-4, 1e-5, 1e-9, 1e-
 /// at a length of 100 mm.
 #[must_use]
 pub fn tolerances() -> Parameters {
-    Parameters::from([0.05, 0.5e-3, 0.0175, 0.5e-3, 0.5e-3, 0.2, 0.015, 1e-5, 0.1, 1e-9])
+    Parameters::from([0.05, 0.5e-3, 0.0175, 0.5e-3, 0.5e-3, 0.2, 0.015, 1e-5, 0.1, 1e-9, 1e-9, 1e-9])
 }
 
 /// The whisker with these parameters.
@@ -119,6 +128,13 @@ pub(super) fn with_parameters(whisker: &Whisker, parameters: &Parameters) -> Whi
 pub(super) fn mechanics(whisker: &Whisker, parameters: &Parameters, obstacle: &Obstacle) -> (TouchMechanics, Obstacle) {
     let other = with_parameters(whisker, parameters);
     let friction = parameters[Parameter::Friction.index()];
+    let obstacle = match *obstacle {
+        Obstacle::Face { point, normal } => Obstacle::Face {
+            point: point + parameters[Parameter::FaceHeight.index()] * unit(normal),
+            normal: normal + parameters[Parameter::FaceTurn.index()],
+        },
+        pin @ Obstacle::Pin { .. } => pin,
+    };
     (TouchMechanics::new(&other, friction), obstacle.seen_from(other.base_pose()))
 }
 

@@ -116,7 +116,7 @@ impl TouchFit {
             return Ok(());
         }
         let refit = |whisker: &Whisker, deviations: &[(Parameter, f64)]| {
-            let mut prior = Prior { mean: Parameters::zeros(), deviation: parameters::tolerances() };
+            let mut prior = Prior::of(readings);
             for &(parameter, deviation) in deviations {
                 prior.deviation[parameter.index()] = deviation;
             }
@@ -153,7 +153,10 @@ impl TouchFit {
     /// The largest difference of a parameter from the rig, in standard deviations of the tolerances.
     fn excess(&self) -> f64 {
         let tolerances = parameters::tolerances();
-        let of_whisker = Parameter::ALL.iter().filter(|parameter| **parameter != Parameter::Offset);
+        let is_of_whisker = |parameter: &&Parameter| {
+            !matches!(parameter, Parameter::Offset | Parameter::FaceHeight | Parameter::FaceTurn)
+        };
+        let of_whisker = Parameter::ALL.iter().filter(is_of_whisker);
         of_whisker
             .map(|parameter| {
                 let index = parameter.index();

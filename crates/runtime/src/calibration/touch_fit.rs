@@ -7,6 +7,7 @@ use crate::rig::Whisker;
 
 use super::measured_whisker::MeasuredWhisker;
 use super::parameters::{self, COUNT, Parameter, ParameterCovariance, Parameters};
+use super::workspace::Workspace;
 
 /// A touch of a known object: the pose of the platform at rest, and the reading of one whisker.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +16,9 @@ pub struct TouchReading {
     pub body: Pose,
     /// The touched part of the object (world frame).
     pub obstacle: Obstacle,
+    /// False for a face whose position is known only to some millimetres and degrees. The fit then determines it too.
+    /// All such touches are of the same face.
+    pub is_known: bool,
     /// +1 if the object bends the whisker to the left, −1 if to the right.
     pub side: f64,
     /// Mean base angle (rad).
@@ -75,6 +79,30 @@ pub(super) struct Prior {
     pub(super) deviation: Parameters,
 }
 
+impl Prior {
+    /// The tolerances of manufacture. The position of the touched face is known exactly, or very roughly if a reading
+    /// says so.
+    pub(super) fn of(readings: &[TouchReading]) -> Self {
+        let mut deviation = parameters::tolerances();
+        if readings.iter().any(|reading| !reading.is_known) {
+            deviation[Parameter::FaceHeight.index()] = FACE_HEIGHT;
+            deviation[Parameter::FaceTurn.index()] = FACE_TURN;
+        }
+        Self { mean: Parameters::zeros(), deviation }
+    }
+
+    /// True if the position of the face is to be determined.
+    fn has_unknown_face(&self) -> bool {
+        self.deviation[Parameter::FaceHeight.index()] >= FACE_HEIGHT
+    }
+}
+
+/// Standard deviations of the position of a face (m) and of its direction (rad) that are known roughly.
+const FACE_HEIGHT: f64 = 10e-3;
+const FACE_TURN: f64 = 0.1;
+/// Step of the heights (m) that are tried as the start of the fit, and their number to either side.
+const HEIGHT_STEP: f64 = 1e-3;
+const HEIGHTS: i32 = 20;
 /// Maximum number of steps of the Levenberg-Marquardt method.
 const STEPS: usize = 40;
 /// Change of the parameters, in standard deviations, at which it has converged.
@@ -155,8 +183,7 @@ impl TouchFit {
     /// coefficient. `None` if the mechanics have no equilibrium for the rig's whisker in most touches.
     #[must_use]
     pub fn new(whisker: &Whisker, touches: &[TouchReading], noise: &TouchNoise) -> Option<Self> {
-        let prior = Prior { mean: Parameters::zeros(), deviation: parameters::tolerances() };
-        Self::with_prior(whisker, touches, noise, &prior)
+        Self::with_prior(whisker, touches, noise, &Prior::of(touches))
     }
 
     /// The same for touches that no parameters near those of the rig explain.
@@ -175,7 +202,19 @@ impl TouchFit {
         let prior = with_offset(readings, prior);
         let mut here = prior.mean;
         let none = vec![None; readings.len()];
-        let mut state = linearised(whisker, &here, readings, noise, &prior, &none);
+        let start = |at: &Parameters| linearised(whisker, at, readings, noise, &prior, &none);
+        let mut state = start(&here);
+        if prior.has_unknown_face() {
+            // At a wrong height, most touches have no equilibrium and so no derivatives.
+            for step in -HEIGHTS..=HEIGHTS {
+                let mut at = prior.mean;
+                at[Parameter::FaceHeight.index()] = HEIGHT_STEP * f64::from(step);
+                let found = start(&at);
+                if found.cost < state.cost {
+                    (here, state) = (at, found);
+                }
+            }
+        }
         let mut damping = 1e-3;
         for _ in 0..STEPS {
             let mut matrix = state.matrix;
@@ -254,6 +293,13 @@ impl TouchFit {
             found = Some((friction, (variance + pose_variance) / math::square(slope)));
         }
         found.filter(|(friction, variance)| friction.is_finite() && *variance > 0.0)
+    }
+
+    /// Standard deviation of tips (m, along the normal of the surface) that the errors of the parameters cause: the root
+    /// mean square over the contacts of contour following.
+    #[must_use]
+    pub fn tip_deviation(&self) -> f64 {
+        Workspace::new(&self.whisker, &Parameters::zeros()).deviation(&self.covariance)
     }
 
     /// The whisker as perception should model it.

@@ -5,7 +5,7 @@
 use super::parameters::{self, COUNT, Parameter, Parameters};
 use super::workspace::Workspace;
 use super::{PlannedTouch, Stroke, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal};
-use crate::geometry::{Pose, Vector2};
+use crate::geometry::{Point2, Pose, Vector2, rotate};
 use crate::math;
 use crate::mechanics::Obstacle;
 use crate::rig::{Rig, Whisker};
@@ -38,7 +38,7 @@ const NOISE: f64 = 5e-8;
 /// The true whisker of a plausible array.
 fn drawn(random: &mut Random) -> Parameters {
     let mut truth = Parameters::zeros();
-    let halves = [0.05, 0.5e-3, 1_f64.to_radians(), 0.5e-3, 0.5e-3, 0.1, 0.01, 2e-6, 0.1, 0.0];
+    let halves = [0.05, 0.5e-3, 1_f64.to_radians(), 0.5e-3, 0.5e-3, 0.1, 0.01, 2e-6, 0.1, 0.0, 0.0, 0.0];
     for index in 0..COUNT {
         truth[index] = random.uniform(halves[index]);
     }
@@ -68,6 +68,7 @@ fn touched(
     Some(TouchReading {
         body,
         obstacle,
+        is_known: true,
         side: planned.side,
         base_angle: touch.base_angle + play + offset + random.normal(NOISE),
         in_air: offset + random.normal(NOISE),
@@ -232,4 +233,120 @@ fn a_pin_elsewhere_is_refused_as_displaced() {
         let verdict = fit.check(&readings, &TouchNoise::default(), std::iter::empty());
         assert!(matches!(verdict, Err(TouchRefusal::Displaced { .. })), "{seed}: {verdict:?}");
     }
+}
+
+/// Touches of a face by the tip, at three attitudes and four depths. The normal of the face is the first axis of the world.
+/// `said` is where the face is said to be.
+fn face_touches(truth: &Parameters, said: Obstacle, is_known: bool, random: &mut Random) -> Vec<TouchReading> {
+    let (whisker, noise) = (left(), TouchNoise::default());
+    let tip = whisker.base_pose().point_to_world(Point2::new(whisker.shaft.length, 0.0)).coords;
+    let (side, radius, base) = (1.0, whisker.shaft.radius_at(1.0), whisker.direction_body);
+    let pose = |turn: f64, depth: f64| {
+        // The normal is turned from the perpendicular of the shaft towards the base.
+        let heading = -(base + side * (std::f64::consts::FRAC_PI_2 + turn.to_radians()));
+        Pose { position: Point2::new(radius - depth, 0.0) - rotate(tip, heading), heading }
+    };
+    let poses =
+        [10.0, 30.0, 50.0].into_iter().flat_map(|turn| [4e-3, 8e-3, 12e-3, 16e-3].map(|depth| pose(turn, depth)));
+    let face = Obstacle::Face { point: Point2::origin(), normal: 0.0 };
+    let reading = |body: Pose| {
+        let off = Pose {
+            position: body.position + Vector2::new(random.normal(noise.position), random.normal(noise.position)),
+            heading: body.heading + random.normal(noise.heading),
+        };
+        let (mechanics, seen) = parameters::mechanics(&whisker, truth, &face.seen_from(off));
+        let touch = mechanics.press(&seen, side)?;
+        let in_air = truth[Parameter::Offset.index()];
+        Some(TouchReading {
+            body,
+            obstacle: said,
+            is_known,
+            side,
+            base_angle: touch.base_angle + in_air + random.normal(NOISE),
+            in_air: in_air + random.normal(NOISE),
+            deviation: NOISE * 2_f64.sqrt(),
+        })
+    };
+    poses.filter_map(reading).collect()
+}
+
+/// A face that is 4 mm and 3 degrees from where it is said to be.
+fn rough_face() -> Obstacle {
+    Obstacle::Face { point: Point2::new(-4e-3, 1e-3), normal: 3_f64.to_radians() }
+}
+
+#[test]
+fn a_face_of_unknown_position_determines_the_stiffness_and_leaves_length_and_base_open() {
+    let stiffness = Parameter::Stiffness.index();
+    let mut deviations = Vec::new();
+    for seed in 0..6 {
+        let mut random = Random(seed);
+        let mut truth = drawn(&mut random);
+        let readings = face_touches(&truth, rough_face(), false, &mut random);
+        assert_eq!(readings.len(), 12, "{seed}");
+        let fit = TouchFit::accepted(&left(), &readings, &TouchNoise::default(), std::iter::empty()).unwrap();
+        // The rough face, as a difference from the true one.
+        truth[Parameter::FaceHeight.index()] = 4e-3;
+        truth[Parameter::FaceTurn.index()] = -3_f64.to_radians();
+        let off = |parameter: Parameter| {
+            let index = parameter.index();
+            (fit.parameters[index] - truth[index]) / fit.covariance[(index, index)].sqrt()
+        };
+        assert!(off(Parameter::Stiffness).abs() < 4.0 && off(Parameter::FaceTurn).abs() < 4.0, "{seed}");
+        let share = |parameter: Parameter| {
+            let index = parameter.index();
+            fit.covariance[(index, index)].sqrt() / parameters::tolerances()[index]
+        };
+        deviations.push(fit.covariance[(stiffness, stiffness)].sqrt());
+        assert!(
+            share(Parameter::Length) > 0.8 && math::max(share(Parameter::BaseX), share(Parameter::BaseY)) > 0.8,
+            "{seed}"
+        );
+    }
+    println!("deviations of the stiffness {deviations:?}");
+    assert!(deviations.iter().all(|deviation| *deviation < 0.02), "{deviations:?}");
+}
+
+#[test]
+fn a_face_that_is_said_to_be_elsewhere_is_refused() {
+    let mut random = Random(1);
+    let truth = drawn(&mut random);
+    let readings = face_touches(&truth, rough_face(), true, &mut random);
+    let verdict = TouchFit::accepted(&left(), &readings, &TouchNoise::default(), std::iter::empty());
+    assert!(verdict.is_err(), "{verdict:?}");
+}
+
+/// The edge of a gauge block is a pin without a radius, and its face is where it is said to be.
+#[test]
+fn an_edge_and_a_face_of_a_block_determine_what_a_pin_does() {
+    let mut random = Random(3);
+    let truth = drawn(&mut random);
+    let face = Obstacle::Face { point: Point2::origin(), normal: 0.0 };
+    let mut readings = face_touches(&truth, face, true, &mut random);
+    let noise = TouchNoise::default();
+    for (share, side, depth) in
+        [(0.5, 1.0, 8e-3), (0.7, 1.0, 14e-3), (0.85, 1.0, 18e-3), (0.5, -1.0, 8e-3), (0.8, -1.0, 16e-3)]
+    {
+        let pin_base = Point2::new(share * left().shaft.length, side * depth);
+        let edge = Obstacle::Pin { centre: left().base_pose().point_to_world(pin_base), radius: 0.0 };
+        let off =
+            Pose { position: Point2::new(random.normal(noise.position), random.normal(noise.position)), heading: 0.0 };
+        let (mechanics, seen) = parameters::mechanics(&left(), &truth, &edge.seen_from(off));
+        let touch = mechanics.press(&seen, side).unwrap();
+        let in_air = truth[Parameter::Offset.index()];
+        readings.push(TouchReading {
+            body: Pose::default(),
+            obstacle: edge,
+            is_known: true,
+            side,
+            base_angle: touch.base_angle + in_air,
+            in_air,
+            deviation: NOISE,
+        });
+    }
+    let fit = TouchFit::accepted(&left(), &readings, &noise, std::iter::empty()).unwrap();
+    assert!(is_within(&fit, &truth));
+    let workspace = Workspace::new(&left(), &fit.parameters);
+    assert!(workspace.deviation(&fit.covariance) < 0.1e-3, "{}", workspace.deviation(&fit.covariance));
+    assert!(workspace.error(&(fit.parameters - truth)) < 0.2e-3);
 }
