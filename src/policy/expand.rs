@@ -42,16 +42,16 @@ pub(super) struct Expanded {
 impl Expanded {
     /// The name of a state in the whole machine: `Following.Swiping`.
     pub(super) fn path(&self, state: usize) -> String {
-        self.states.get(state).map_or_else(String::new, |state| {
-            format!("{}{}", self.instances[state.instance].prefix, state.name.text)
-        })
+        self.states
+            .get(state)
+            .map_or_else(String::new, |state| format!("{}{}", self.instances[state.instance].prefix, state.name.text))
     }
 
     /// True if a state is the outermost one of a copy of a behaviour.
     pub(super) fn is_root(&self, state: usize) -> bool {
-        self.states.get(state).is_some_and(|state| {
-            state.parent.is_some_and(|parent| self.states[parent].instance != state.instance)
-        })
+        self.states
+            .get(state)
+            .is_some_and(|state| state.parent.is_some_and(|parent| self.states[parent].instance != state.instance))
     }
 }
 
@@ -81,7 +81,8 @@ fn expand(
     let whole = Instance { file, user: None, name: name.clone(), exits: exits.to_vec(), prefix: String::new() };
     let whole = Expanded { states: Vec::new(), instances: vec![whole], faults: Vec::new() };
     let mut expansion = Expansion { files, links, whole, copied: 0, open: Vec::new() };
-    if !exits.is_empty() || states.first().is_some_and(|root| root.name.span == name.span) {
+    // A behaviour that is checked alone cannot use itself.
+    if states.first().is_some_and(|root| root.name.span == name.span) {
         expansion.open.push(name.span);
     }
     expansion.copy(states, 0, None);
@@ -125,8 +126,7 @@ impl<'f> Expansion<'f> {
     /// Copies the behaviour that a state uses.
     fn apply(&mut self, state: &State, place: usize, used: &Step) {
         let file = self.whole.instances[self.whole.states[place].instance].file;
-        let has_inner = self.files.get(file).is_some() && !state.initial.is_empty();
-        if has_inner {
+        if !state.initial.is_empty() {
             let message = format!("the state `{}` has a behaviour and an `initial`", state.name.text);
             let fault = Diagnostic::error("P0420", message, used.span, "its content");
             self.report(fault.hint("a behaviour has its own inner states; remove `initial` and the inner states"));
@@ -141,15 +141,18 @@ impl<'f> Expansion<'f> {
         if self.open.contains(&behaviour.name.span) {
             let message = format!("the behaviour `{}` uses itself", used.name.text);
             let fault = Diagnostic::error("P0401", message, used.name.span, "used within itself");
-            self.report(fault.note(behaviour.name.span, "declared here").hint(
-                "recursion is not possible, because the work of a tick is bounded; use transitions instead",
-            ));
+            self.report(
+                fault
+                    .note(behaviour.name.span, "declared here")
+                    .hint("recursion is not possible, because the work of a tick is bounded; use transitions instead"),
+            );
             return;
         }
         self.check_connections(state, behaviour, used);
         self.copied += behaviour.span.end - behaviour.span.start;
         if self.copied > COPIED_LIMIT {
-            let fault = Diagnostic::error("P0402", "the compiled policy is too large", used.span, "exceeds the limit here");
+            let fault =
+                Diagnostic::error("P0402", "the compiled policy is too large", used.span, "exceeds the limit here");
             self.report(fault.hint("a behaviour is copied at every use; use it in fewer places"));
             return;
         }
@@ -180,25 +183,26 @@ impl<'f> Expansion<'f> {
             let behaviours = &self.files.get(number)?.behaviours;
             Some((number, behaviours.iter().find(|behaviour| behaviour.name.text == name.text)?))
         };
-        let used = self.imports(file, Some(name));
+        let used = self.imports(file, name);
         own(file).or_else(|| used.into_iter().find_map(own))
     }
 
-    /// The numbers of the files that a file uses, only those from which it imports `name`.
-    fn imports(&self, file: usize, name: Option<&Name>) -> Vec<usize> {
+    /// The numbers of the files from which a file imports `name`.
+    fn imports(&self, file: usize, name: &Name) -> Vec<usize> {
         let uses = self.files.get(file).into_iter().flat_map(|file| &file.uses);
         let links = self.links.get(file).into_iter().flatten();
         let is_chosen = |names: &Option<Vec<Name>>| {
-            names.as_ref().zip(name).is_none_or(|(names, name)| names.iter().any(|chosen| chosen.text == name.text))
+            names.as_ref().is_none_or(|names| names.iter().any(|chosen| chosen.text == name.text))
         };
         uses.zip(links).filter(|(used, _)| is_chosen(&used.names)).map(|(_, &link)| link + 1).collect()
     }
 
     /// The names of the behaviours that a file knows.
     fn known(&self, file: usize) -> Vec<String> {
-        let files = self.imports(file, None).into_iter().chain([file]);
-        let behaviours = files.filter_map(|number| self.files.get(number)).flat_map(|file| &file.behaviours);
-        behaviours.map(|behaviour| behaviour.name.text.clone()).collect()
+        let own = |number: usize| self.files.get(number).into_iter().flat_map(|file| &file.behaviours);
+        let used = (0..self.files.len()).flat_map(own).map(|behaviour| &behaviour.name);
+        let known = used.filter(|name| self.find(file, name).is_some());
+        known.map(|name| name.text.clone()).collect()
     }
 
     /// Reports two states, or two exits, of a behaviour with the same name. Those of a machine are checked with its
@@ -231,7 +235,9 @@ impl<'f> Expansion<'f> {
         if let Some(span) = misplaced_exit {
             let message = "only a behaviour has exits";
             let fault = Diagnostic::error("P0420", message, span, "in a state");
-            self.report(fault.hint("write statements in braces, `exit { \u{2026} }`, or declare the exit in the braces of a behaviour"));
+            self.report(fault.hint(
+                "write statements in braces, `exit { \u{2026} }`, or declare the exit in the braces of a behaviour",
+            ));
         }
         if let Some(connection) = state.connections.first().filter(|_| state.behaviour.is_none()) {
             let message = format!("the state `{}` has no behaviour whose exits it could connect", state.name.text);
@@ -256,7 +262,8 @@ impl<'f> Expansion<'f> {
             let mut connections = state.connections.iter().filter(|connection| connection.exit.text == exit.name.text);
             let Some(first) = connections.next() else {
                 let (name, exit_name) = (&behaviour.name.text, &exit.name.text);
-                let message = format!("the state `{}` does not connect the exit `{exit_name}` of `{name}`", state.name.text);
+                let message =
+                    format!("the state `{}` does not connect the exit `{exit_name}` of `{name}`", state.name.text);
                 let names: Vec<&str> = exit.arguments.iter().map(|argument| argument.name.text.as_str()).collect();
                 let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
                 let fault = Diagnostic::error("P0421", message, used.name.span, "has this exit");
@@ -294,7 +301,7 @@ impl<'f> Expansion<'f> {
         if takes != given {
             let names: Vec<&str> = exit.arguments.iter().map(|argument| argument.name.text.as_str()).collect();
             let usage = if names.is_empty() { name.clone() } else { format!("{name}({})", names.join(", ")) };
-            let message = format!("the exit `{name}` gives {takes} values, not {given}");
+            let message = format!("the number of values of the exit `{name}` is {takes}, not {given}");
             let fault = Diagnostic::error("P0304", message, connection.exit.span, "connected here");
             self.report(fault.note(exit.name.span, "declared here").hint(format!("write `on {usage} -> \u{2026}`")));
         }

@@ -230,8 +230,15 @@ fn misplaced(file: &File) -> Option<Diagnostic> {
     let running = file.monitors.iter().filter(|monitor| monitor.used.is_some()).map(|monitor| monitor.name.span);
     let tests = file.tests.iter().map(|test| test.title.span);
     let memory = file.memory.iter().map(|(name, _)| name.span);
-    let items =
-        parameters.chain(needs).chain(states).chain(names).chain(rules).chain(tests).chain(memory).chain(running).chain(file.acts);
+    let items = parameters
+        .chain(needs)
+        .chain(states)
+        .chain(names)
+        .chain(rules)
+        .chain(tests)
+        .chain(memory)
+        .chain(running)
+        .chain(file.acts);
     let first: Span = items.min_by_key(|span| span.start)?;
     file.is_library.then(|| {
         Diagnostic::error("P0603", "a library has only laws, derived values, behaviours and monitors with braces", first, "belongs to a machine")

@@ -18,8 +18,22 @@ const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
 const ITEM_WORDS: [&str; 16] = [
-    "whisker", "needs", "param", "initial", "let", "law", "state", "behaviour", "monitor", "always", "failsafe", "use",
-    "test", "property", "machine", "library",
+    "whisker",
+    "needs",
+    "param",
+    "initial",
+    "let",
+    "law",
+    "state",
+    "behaviour",
+    "monitor",
+    "always",
+    "failsafe",
+    "use",
+    "test",
+    "property",
+    "machine",
+    "library",
 ];
 /// Keywords among them that also occur within braces.
 const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
@@ -30,7 +44,9 @@ const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", 
 /// Keywords that can begin a continuation line of an item.
 const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
 /// Keywords that begin other parts of a state.
-const PART_WORDS: [&str; 7] = ["let", "when", "after", "on", "entry", "exit", "failsafe"];
+const PART_WORDS: [&str; 6] = ["let", "when", "after", "entry", "exit", "failsafe"];
+/// A word that begins another part of a state at the beginning of a line, and is a name anywhere else.
+const CONTEXTUAL_PART_WORD: &str = "on";
 
 /// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]
@@ -263,7 +279,9 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
             // At the beginning of a line a statement begins even if a parenthesis was left open.
             word if braces == 0
                 && is_begin
-                && (STATEMENT_WORDS.contains(&word) || PART_WORDS.contains(&word))
+                && (STATEMENT_WORDS.contains(&word)
+                    || PART_WORDS.contains(&word)
+                    || word == CONTEXTUAL_PART_WORD && token.indent.is_some())
                 && (parentheses == 0 || token.indent.is_some()) =>
             {
                 starts.push(start + token.start);

@@ -16,8 +16,20 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
 const ITEM_WORDS: [&str; 14] = [
-    "machine", "library", "use", "whisker", "needs", "param", "initial", "law", "state", "behaviour", "monitor",
-    "always", "test", "property",
+    "machine",
+    "library",
+    "use",
+    "whisker",
+    "needs",
+    "param",
+    "initial",
+    "law",
+    "state",
+    "behaviour",
+    "monitor",
+    "always",
+    "test",
+    "property",
 ];
 
 /// The diagnostic for an error of pest.
@@ -298,7 +310,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_behaviour => "behaviour",
         Rule::kw_monitor => "monitor",
         Rule::kw_is => "is",
-        Rule::kw_on => "on",
+        Rule::on_word => "on",
         Rule::kw_always => "always",
         Rule::kw_test => "test",
         Rule::kw_property => "property",

@@ -70,9 +70,8 @@ fn in_all_copies(files: &Files, warnings: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut kept: Vec<Diagnostic> = Vec::with_capacity(warnings.len());
     for warning in &warnings {
         let is_same = |other: &&Diagnostic| (other.code, other.primary.span) == (warning.code, warning.primary.span);
-        let is_within = |behaviour: &&Behaviour| {
-            (behaviour.span.start..behaviour.span.end).contains(&warning.primary.span.start)
-        };
+        let is_within =
+            |behaviour: &&Behaviour| (behaviour.span.start..behaviour.span.end).contains(&warning.primary.span.start);
         let copies = files.main.behaviours.iter().find(is_within).map_or(1, |behaviour| {
             let used = |instance: &&Instance| instance.user.is_some() && instance.name.span == behaviour.name.span;
             files.machine.instances.iter().filter(used).count()

@@ -216,7 +216,12 @@ const BODY: [Member; 10] = [
         MemberSource::Body(BodyScalar::Length),
         "the length of the platform from tail to nose, from the rig",
     ),
-    member("width", Type::LENGTH, MemberSource::Body(BodyScalar::Width), "the greatest width of the platform, from the rig"),
+    member(
+        "width",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::Width),
+        "the greatest width of the platform, from the rig",
+    ),
     member(
         "nose_width",
         Type::LENGTH,

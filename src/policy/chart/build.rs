@@ -160,7 +160,7 @@ impl<'f> Builder<'f> {
         }
     }
 
-    /// A target of a transition of an instance. Exits on the way to it are added to `exits`.
+    /// A target of a transition of an instance. The exits that lead to it are added to `exits`.
     fn target(&self, instance: usize, target: &ast::Target, exits: &mut Vec<Exit>) -> Option<Target> {
         let of = |name: &ast::Name| self.states.get(&(instance, name.text.as_str())).copied();
         Some(match target {
@@ -180,8 +180,7 @@ impl<'f> Builder<'f> {
             }
             ast::Target { text: Some(reason), .. } => Target::Failure(reason.text.clone()),
             ast::Target { resume, outer, name, values, .. } => {
-                let outer =
-                    outer.iter().map(|step| Some((self.places[of(&step.name)?], self.texts(&step.values))));
+                let outer = outer.iter().map(|step| Some((self.places[of(&step.name)?], self.texts(&step.values))));
                 Target::State {
                     state: self.places[of(name)?],
                     outer: outer.collect::<Option<_>>()?,

@@ -199,6 +199,8 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Number, _) if known_apart(typed, *before) => more(statement, level),
         (TokenKind::Number, _) => Expected::Unit,
         (TokenKind::Name, "lost" | "found") if behind(known, 1) == Some("mark") => Expected::Value,
+        // Before a name it is a keyword.
+        (TokenKind::Name, "on") if level == Level::State && before.line_ends > 0 => Expected::Connected,
         (TokenKind::Keyword, "exit") if behind(known, 1) == Some("->") => Expected::Exit,
         (TokenKind::Keyword, word) => behind_word(word, statement, level),
         (TokenKind::Name, "vector") if is_declaring(statement) => Expected::Only("of"),

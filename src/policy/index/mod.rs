@@ -166,7 +166,9 @@ impl Index {
         let whole = self.source.slice(symbol.whole);
         let until = match symbol.kind {
             SymbolKind::Whisker => return format!("whisker {}", symbol.name),
-            SymbolKind::Law | SymbolKind::State | SymbolKind::Behaviour | SymbolKind::Monitor => whole.find('{').unwrap_or(whole.len()),
+            SymbolKind::Law | SymbolKind::State | SymbolKind::Behaviour | SymbolKind::Monitor => {
+                whole.find('{').unwrap_or(whole.len())
+            }
             _ => whole.len(),
         };
         let mut words = String::new();

@@ -52,7 +52,8 @@ pub(super) fn resolve(
     // The family whose ranges are being read.
     let mut family = None;
     // The state that was declared last, and the behaviours of the statement and of all open braces.
-    let (mut state, mut used, mut frames): (Option<usize>, Option<usize>, Vec<Option<usize>>) = (None, None, Vec::new());
+    let (mut state, mut used, mut frames): (Option<usize>, Option<usize>, Vec<Option<usize>>) =
+        (None, None, Vec::new());
     for (index, token) in tokens.iter().enumerate() {
         names.advance(token.start);
         let last = imports.partition_point(|import| import.tokens.start < index).checked_sub(1);
@@ -180,9 +181,8 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
 
 /// The memory with a name of a monitor.
 fn memory_of(symbols: &[Symbol], monitor: usize, name: &str) -> Option<usize> {
-    let is_meant = |symbol: &Symbol| {
-        symbol.kind == SymbolKind::Memory && symbol.owner == Some(monitor) && symbol.name == name
-    };
+    let is_meant =
+        |symbol: &Symbol| symbol.kind == SymbolKind::Memory && symbol.owner == Some(monitor) && symbol.name == name;
     symbols.iter().position(is_meant)
 }
 

@@ -36,9 +36,11 @@ impl<'f> Compiler<'f> {
             let message = format!("there is no exit `{}`", target.name.text);
             let diagnostic = Diagnostic::error("P0201", message, target.name.span, "unknown exit");
             let known = instance.exits.iter().map(|exit| exit.name.text.as_str());
-            self.report(did_you_mean(diagnostic, &target.name.text, known).hint(
-                "a behaviour declares its exits in its braces: `exit name(value: type)`; the machine has none",
-            ));
+            self.report(
+                did_you_mean(diagnostic, &target.name.text, known).hint(
+                    "a behaviour declares its exits in its braces: `exit name(value: type)`; the machine has none",
+                ),
+            );
             return None;
         };
         if exit.arguments.len() != target.values.len() {

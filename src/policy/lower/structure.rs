@@ -213,8 +213,11 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the statements outside of all states.
     fn own_body(&mut self, scope: &Scope<'f>, file: &'f File) -> Block {
-        self.commandless =
-            Some(Commandless { construct: "the machine itself", hint: "move it to the statements of a state", allows_records: true });
+        self.commandless = Some(Commandless {
+            construct: "the machine itself",
+            hint: "move it to the statements of a state",
+            allows_records: true,
+        });
         let start = self.code.here();
         self.statements(&mut scope.clone(), &file.body);
         let body = self.code.since(start);
@@ -309,7 +312,8 @@ impl<'f> Compiler<'f> {
         let body = self.code.since(start);
         let initial = self.inner_initial(scope, index, state);
 
-        self.commandless = Some(Commandless { construct: "leaving a state", hint: COMMAND_ADVICE, allows_records: true });
+        self.commandless =
+            Some(Commandless { construct: "leaving a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
@@ -322,7 +326,8 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the entry of a state.
     fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
-        self.commandless = Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE, allows_records: true });
+        self.commandless =
+            Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
         self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {

@@ -78,7 +78,8 @@ pub(super) fn monitor(reader: &mut Reader<'_>) -> Parsed<Monitor> {
 
 fn connection(reader: &mut Reader<'_>) -> Parsed<Connection> {
     let exit = reader.name()?;
-    let names = if reader.has(Rule::received) { Reader::new(reader.take(Rule::received)?).names()? } else { Vec::new() };
+    let names =
+        if reader.has(Rule::received) { Reader::new(reader.take(Rule::received)?).names()? } else { Vec::new() };
     Ok(Connection { exit, names, target: target(reader.take(Rule::target)?)? })
 }
 

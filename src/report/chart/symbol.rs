@@ -142,7 +142,9 @@ impl Symbol {
                 arguments.into_iter().chain(behaviour(state)).chain(hidden(state)).collect()
             }
             Self::Anew(_) => vec!["entered anew".to_owned()],
-            Self::Exit(index) => chart.ends().get(index).map(|(behaviour, _)| format!("exit of {behaviour}")).into_iter().collect(),
+            Self::Exit(index) => {
+                chart.ends().get(index).map(|(behaviour, _)| format!("exit of {behaviour}")).into_iter().collect()
+            }
             _ => Vec::new(),
         }
     }

@@ -3,7 +3,9 @@
 use proptest::prelude::*;
 
 use super::grow::Grower;
-use super::tree::{Arguments, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Statement, Steer, Target, Type};
+use super::tree::{
+    Arguments, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Statement, Steer, Target, Type,
+};
 
 /// Programs that are well typed; some go round within a tick, which the compiler refuses.
 pub(crate) fn programs() -> impl Strategy<Value = Program> {
@@ -102,9 +104,9 @@ impl Grower<'_> {
                 let (name, r#type, _) = self.one_of(&memory);
                 let set = Statement::Set(name, self.expression(r#type, 2));
                 let condition = (self.pick(2) == 1).then(|| self.expression(Type::Truth, 2));
-                body.push(condition.map_or(set.clone(), |condition| {
-                    Statement::If(vec![(condition, vec![set])], Vec::new())
-                }));
+                body.push(
+                    condition.map_or(set.clone(), |condition| Statement::If(vec![(condition, vec![set])], Vec::new())),
+                );
             }
             self.scope.truncate(outside);
             let values = self.values(&arguments, 2);

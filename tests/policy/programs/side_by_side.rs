@@ -136,7 +136,10 @@ const DONE: [(&str, &[&str]); 38] = [
     ("a derived value", &["a body", "an if", "an entry", "a guard", "a memory"]),
     ("one with arguments", &["a body", "a law", "an if", "an entry", "an exit", "a guard", "a target", "a memory"]),
     ("let", &["a body", "a law", "an if", "an entry", "an exit"]),
-    ("what a monitor remembers", &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a memory", "a monitor"]),
+    (
+        "what a monitor remembers",
+        &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a memory", "a monitor"],
+    ),
     ("set", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of the machine's memory", &["a body", "an if", "an entry", "an exit", "the machine"]),
     ("set of what was named before", &["a body", "an if", "an entry", "an exit"]),

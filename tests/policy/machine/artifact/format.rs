@@ -27,7 +27,7 @@ needs control_rate in 20 .. 30 Hz
 needs sample_age in 0 .. 10 ms
 param low = 1 in 0 .. 2  # described
 var n = low
-monitor seen { var x = n  set x = 3 }
+monitor seen { var x = low  set x = 3 }
 record a
 record a.tip in c
 initial Rest

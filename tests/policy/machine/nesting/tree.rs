@@ -99,9 +99,11 @@ impl Tree {
 
     /// The rules that leave the behaviour, each with its number among those of its state.
     fn exits(&self) -> impl Iterator<Item = (usize, usize, &Rule)> {
-        let rules = self.states.iter().enumerate().flat_map(|(from, node)| {
-            node.rules.iter().enumerate().map(move |(index, rule)| (from, index, rule))
-        });
+        let rules = self
+            .states
+            .iter()
+            .enumerate()
+            .flat_map(|(from, node)| node.rules.iter().enumerate().map(move |(index, rule)| (from, index, rule)));
         rules.filter(|(from, _, rule)| self.is_exit(Some(*from), rule))
     }
 
@@ -143,7 +145,8 @@ impl Tree {
                 (Some(_), Some((initial, value))) => format!("is {}", self.step(*initial, &[(*initial, *value)])),
                 _ => String::new(),
             };
-            writeln!(text, "{} S{index}{arguments} {used} {{", if is_behaviour { "behaviour" } else { "state" }).unwrap();
+            writeln!(text, "{} S{index}{arguments} {used} {{", if is_behaviour { "behaviour" } else { "state" })
+                .unwrap();
             match &node.initial {
                 Some((initial, value)) if uses.is_none() => {
                     writeln!(text, "initial {}", self.step(*initial, &[(*initial, *value)])).unwrap();
@@ -152,7 +155,8 @@ impl Tree {
             }
             for (from, number, rule) in self.exits() {
                 let names: Vec<String> = (0..self.written(Some(from), rule).len()).map(|k| format!("x{k}")).collect();
-                let list = |list: &[String]| if list.is_empty() { String::new() } else { format!("({})", list.join(", ")) };
+                let list =
+                    |list: &[String]| if list.is_empty() { String::new() } else { format!("({})", list.join(", ")) };
                 if is_behaviour {
                     let typed: Vec<String> = names.iter().map(|name| format!("{name}: whisker")).collect();
                     writeln!(text, "exit e{from}_{number}{}", list(&typed)).unwrap();
