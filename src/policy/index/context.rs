@@ -224,12 +224,10 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
         "machine" | "library" | "whisker" | "param" | "law" | "state" | "let" | "var" | "in" | "entry" | "exit"
-        | "test" | "property" => Expected::Nothing,
-        "behaviour" => Expected::Nothing,
+        | "test" | "property" | "behaviour" | "monitor" => Expected::Nothing,
         "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,
         "is" => Expected::Behaviour,
-        "monitor" => Expected::Nothing,
         "on" => Expected::Connected,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
@@ -253,8 +251,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
 fn is_declaring(statement: &[Token<'_>]) -> bool {
     match statement.first().map(|token| token.text) {
         Some("state" | "monitor") => !statement.iter().any(|token| token.text == "is"),
-        Some("exit") => true,
-        Some("law" | "behaviour" | "whisker") => true,
+        Some("law" | "behaviour" | "exit" | "whisker") => true,
         Some("let") => !statement.iter().any(|token| token.is("=")),
         _ => false,
     }
