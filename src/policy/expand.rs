@@ -81,7 +81,8 @@ fn expand(
     let whole = Instance { file, user: None, name: name.clone(), exits: exits.to_vec(), prefix: String::new() };
     let whole = Expanded { states: Vec::new(), instances: vec![whole], faults: Vec::new() };
     let mut expansion = Expansion { files, links, whole, copied: 0, open: Vec::new() };
-    if !exits.is_empty() || states.first().is_some_and(|root| root.name.span == name.span) {
+    // A behaviour that is checked alone cannot use itself.
+    if states.first().is_some_and(|root| root.name.span == name.span) {
         expansion.open.push(name.span);
     }
     expansion.copy(states, 0, None);
@@ -125,8 +126,7 @@ impl<'f> Expansion<'f> {
     /// Copies the behaviour that a state uses.
     fn apply(&mut self, state: &State, place: usize, used: &Step) {
         let file = self.whole.instances[self.whole.states[place].instance].file;
-        let has_inner = self.files.get(file).is_some() && !state.initial.is_empty();
-        if has_inner {
+        if !state.initial.is_empty() {
             let message = format!("the state `{}` has a behaviour and an `initial`", state.name.text);
             let fault = Diagnostic::error("P0420", message, used.span, "its content");
             self.report(fault.hint("a behaviour has its own inner states; remove `initial` and the inner states"));
@@ -183,25 +183,26 @@ impl<'f> Expansion<'f> {
             let behaviours = &self.files.get(number)?.behaviours;
             Some((number, behaviours.iter().find(|behaviour| behaviour.name.text == name.text)?))
         };
-        let used = self.imports(file, Some(name));
+        let used = self.imports(file, name);
         own(file).or_else(|| used.into_iter().find_map(own))
     }
 
-    /// The numbers of the files that a file uses, only those from which it imports `name`.
-    fn imports(&self, file: usize, name: Option<&Name>) -> Vec<usize> {
+    /// The numbers of the files from which a file imports `name`.
+    fn imports(&self, file: usize, name: &Name) -> Vec<usize> {
         let uses = self.files.get(file).into_iter().flat_map(|file| &file.uses);
         let links = self.links.get(file).into_iter().flatten();
         let is_chosen = |names: &Option<Vec<Name>>| {
-            names.as_ref().zip(name).is_none_or(|(names, name)| names.iter().any(|chosen| chosen.text == name.text))
+            names.as_ref().is_none_or(|names| names.iter().any(|chosen| chosen.text == name.text))
         };
         uses.zip(links).filter(|(used, _)| is_chosen(&used.names)).map(|(_, &link)| link + 1).collect()
     }
 
     /// The names of the behaviours that a file knows.
     fn known(&self, file: usize) -> Vec<String> {
-        let files = self.imports(file, None).into_iter().chain([file]);
-        let behaviours = files.filter_map(|number| self.files.get(number)).flat_map(|file| &file.behaviours);
-        behaviours.map(|behaviour| behaviour.name.text.clone()).collect()
+        let own = |number: usize| self.files.get(number).into_iter().flat_map(|file| &file.behaviours);
+        let used = (0..self.files.len()).flat_map(own).map(|behaviour| &behaviour.name);
+        let known = used.filter(|name| self.find(file, name).is_some());
+        known.map(|name| name.text.clone()).collect()
     }
 
     /// Reports two states, or two exits, of a behaviour with the same name. Those of a machine are checked with its
@@ -300,7 +301,7 @@ impl<'f> Expansion<'f> {
         if takes != given {
             let names: Vec<&str> = exit.arguments.iter().map(|argument| argument.name.text.as_str()).collect();
             let usage = if names.is_empty() { name.clone() } else { format!("{name}({})", names.join(", ")) };
-            let message = format!("the exit `{name}` gives {takes} values, not {given}");
+            let message = format!("the number of values of the exit `{name}` is {takes}, not {given}");
             let fault = Diagnostic::error("P0304", message, connection.exit.span, "connected here");
             self.report(fault.note(exit.name.span, "declared here").hint(format!("write `on {usage} -> \u{2026}`")));
         }

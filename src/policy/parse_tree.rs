@@ -153,7 +153,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_behaviour
             | Rule::kw_monitor
             | Rule::kw_is
-            | Rule::kw_on
+            | Rule::on_word
             | Rule::kw_entry
             | Rule::kw_exit
             | Rule::kw_test

@@ -19,10 +19,10 @@ pub(super) fn text(module: &str) -> Option<&'static str> {
     MODULES.iter().find(|(name, _)| *name == module).map(|&(_, text)| text)
 }
 
-/// The module that contains a law or derived value of this name.
+/// The module that contains a law, derived value, behaviour or monitor of this name.
 pub(super) fn module_with(name: &str) -> Option<&'static str> {
     let gives = |line: &str| {
-        let rest = line.strip_prefix("law ").or_else(|| line.strip_prefix("let "));
+        let rest = ["law ", "let ", "behaviour ", "monitor "].iter().find_map(|word| line.strip_prefix(word));
         rest.and_then(|rest| rest.strip_prefix(name)).is_some_and(|rest| rest.starts_with(['(', ' ']))
     };
     MODULES.iter().find(|(_, text)| text.lines().any(gives)).map(|&(module, _)| module)

@@ -285,7 +285,7 @@ const RULES: [Rule; 34] = [
             "monitor seen { var much = %n if %b { set much = %n } }",
             "behaviour wander(w: whisker, x: number) { exit far(d: length) exit gone initial Start var own = x when %b -> exit gone \
             state Start { stop set own = %n when w.touching -> Later after %t -> exit far(%l) } state Later { hold when x > own -> exit far(w.length) } } \
-            state Used(w: whisker) is wander(w, %n) { on far(at) -> Third(%n, at) on gone -> %G %T }",
+            state Used(w: whisker) is wander(w, %n) { on far(d) -> Third(%n, d) on gone -> %G %T }",
             "monitor felt(w: whisker, x: number) { var most = x let more = most + 1 if w.touching { set most = more } } monitor right is felt(r0, %n) monitor left is felt(l0, right.most) \
             behaviour outer { exit done initial Run state Run is inner(r0) { on full(n) -> exit done on none -> Run } } \
             behaviour inner(w: whisker) { exit full(x: number) exit none record w when w.touching -> exit full(2) after 1 s -> exit none } \

@@ -61,14 +61,14 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
         search.bounds.work += outer.len();
         due.push(transitions(&mut search, (&model.always, &outer), &state.edges, &mut warnings));
     }
-    in_order(in_all_copies(files, warnings))
+    in_order(in_all_copies(files, &warnings))
 }
 
 /// The warnings about the text of the policy itself. One about a behaviour counts only if it holds for every copy.
-fn in_all_copies(files: &Files, warnings: Vec<Diagnostic>) -> Vec<Diagnostic> {
+fn in_all_copies(files: &Files, warnings: &[Diagnostic]) -> Vec<Diagnostic> {
     let own_end = files.libraries.iter().map(|library| library.name.span.start).min().unwrap_or(usize::MAX);
     let mut kept: Vec<Diagnostic> = Vec::with_capacity(warnings.len());
-    for warning in &warnings {
+    for warning in warnings {
         let is_same = |other: &&Diagnostic| (other.code, other.primary.span) == (warning.code, warning.primary.span);
         let is_within =
             |behaviour: &&Behaviour| (behaviour.span.start..behaviour.span.end).contains(&warning.primary.span.start);

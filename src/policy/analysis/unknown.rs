@@ -63,21 +63,23 @@ impl Domain {
             Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-YAW_LIMIT, YAW_LIMIT),
             // The simplest body follows its commands, so that value comes first.
             Unknown::Body(BodyScalar::Blocked) => Self::Values(vec![0.0, 1.0]),
-            Unknown::Body(BodyScalar::Shortfall) => range(0.0, DISTANCE_LIMIT),
-            Unknown::Body(BodyScalar::Length | BodyScalar::Width) => range(f64::MIN_POSITIVE, DISTANCE_LIMIT),
-            Unknown::Body(BodyScalar::NoseWidth | BodyScalar::TailWidth) => range(0.0, DISTANCE_LIMIT),
-            Unknown::Body(BodyScalar::NoseReach) => range(-DISTANCE_LIMIT, DISTANCE_LIMIT),
+            Unknown::Body(BodyScalar::Shortfall | BodyScalar::NoseWidth | BodyScalar::TailWidth) => {
+                range(0.0, DISTANCE_LIMIT)
+            }
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),
             Unknown::Contour(_) => Self::Values(CONTOURS.to_vec()),
             Unknown::Whisker(_, WhiskerScalar::Fitted) => Self::Values(vec![1.0, 0.0]),
             Unknown::Tangent(_) | Unknown::Normal(_) => range(-PI, PI),
-            Unknown::Whisker(_, WhiskerScalar::Length) => range(f64::MIN_POSITIVE, DISTANCE_LIMIT),
-            Unknown::Whisker(_, WhiskerScalar::TipDeviation) => range(0.0, f64::INFINITY),
-            Unknown::BodyPosition(_) | Unknown::Whisker(..) | Unknown::WhiskerVector(..) => {
-                range(-DISTANCE_LIMIT, DISTANCE_LIMIT)
+            Unknown::Body(BodyScalar::Length | BodyScalar::Width) | Unknown::Whisker(_, WhiskerScalar::Length) => {
+                range(f64::MIN_POSITIVE, DISTANCE_LIMIT)
             }
+            Unknown::Whisker(_, WhiskerScalar::TipDeviation) => range(0.0, f64::INFINITY),
+            Unknown::Body(BodyScalar::NoseReach)
+            | Unknown::BodyPosition(_)
+            | Unknown::Whisker(..)
+            | Unknown::WhiskerVector(..) => range(-DISTANCE_LIMIT, DISTANCE_LIMIT),
         }
     }
 

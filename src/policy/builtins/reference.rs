@@ -135,7 +135,10 @@ fn standard(page: &mut String) {
         let _ = write!(page, "\n### `use {ROOT}.{module}`\n\n{about}\n\n| item | meaning |\n|---|---|\n");
         let laws = file.laws.iter().map(|law| ("law", &law.name, &law.arguments));
         let values = file.derived.iter().map(|value| ("let", &value.name, &value.arguments));
-        let mut items: Vec<(&str, &Name, &Vec<Argument>)> = laws.chain(values).collect();
+        let behaviours = file.behaviours.iter().map(|item| ("behaviour", &item.name, &item.root().arguments));
+        let monitors = file.monitors.iter().map(|item| ("monitor", &item.name, &item.arguments));
+        let items = laws.chain(values).chain(behaviours).chain(monitors);
+        let mut items: Vec<(&str, &Name, &Vec<Argument>)> = items.collect();
         items.sort_by_key(|(_, name, _)| name.span.start);
         for (kind, name, arguments) in items {
             let arguments = arguments.iter().map(|one| {

@@ -162,7 +162,7 @@ impl<'f> Builder<'f> {
         }
     }
 
-    /// A target of a transition of an instance. Exits on the way to it are added to `exits`.
+    /// A target of a transition of an instance. The exits that lead to it are added to `exits`.
     fn target(&self, instance: usize, target: &ast::Target, exits: &mut Vec<Exit>) -> Option<Target> {
         let of = |name: &ast::Name| self.states.get(&(instance, name.text.as_str())).copied();
         Some(match target {

@@ -146,8 +146,11 @@ impl Selection<'_> {
             }
             (target, _) => target.clone(),
         };
-        let is_hidden = matches!(transition.origin, Origin::State(whole) if self.ancestor(whole) != whole);
-        let of_origin = |exit: &&Exit| is_hidden && from == index(exit.state);
+        // The exits of a behaviour whose content is not shown.
+        let is_closed = |state: usize| {
+            (0..self.chart.states.len()).any(|inner| self.chart.contains(state, inner) && index(inner).is_none())
+        };
+        let of_origin = |exit: &&Exit| from.is_some() && from == index(exit.state) && is_closed(exit.state);
         let guard = match transition.exits.iter().find(of_origin) {
             Some(exit) => Guard::Exit(exit.name.clone()),
             None => transition.guard.clone(),

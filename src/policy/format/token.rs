@@ -59,7 +59,7 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
             '#' => (Kind::Comment, rest.find('\n').unwrap_or(rest.len())),
             '"' => (Kind::Text, rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2)),
             '0'..='9' => (Kind::Number, number(rest)),
-            _ if let Some(length) = word_of_contour(rest, &tokens) => (Kind::Keyword, length),
+            _ if let Some(length) = contextual_word(rest, &tokens) => (Kind::Keyword, length),
             _ if after_number && unit(rest) > 0 => (Kind::Unit, unit(rest)),
             _ if is_family_due(&tokens) && is_word(first) => (Kind::Name, family(rest)),
             _ if is_word(first) => {
@@ -80,9 +80,9 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
     }
 }
 
-/// Length of a word of a contour's declaration at the beginning of `text`, which is a name anywhere else: `contour`
-/// before a name or `of`, `points` after a number behind `of`, `apart` after a unit.
-fn word_of_contour(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
+/// Length of a keyword at the beginning of `text` that is a name anywhere else: `contour` before a name or `of`,
+/// `points` after a number behind `of`, `apart` after a unit, and `on` before a name.
+fn contextual_word(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
     let word = text.split(|letter| !is_word(letter)).next().unwrap_or_default();
     let mut before = tokens.iter().rev().filter(|token| token.kind != Kind::Comment);
     let is_word = match (word, before.next()) {
@@ -93,6 +93,10 @@ fn word_of_contour(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
         }
         ("points", Some(last)) => {
             last.kind == Kind::Number && before.next().is_some_and(|of| of.kind == Kind::Keyword && of.text == "of")
+        }
+        ("on", Some(last)) if !last.is(".") && !last.is(":") => {
+            let next = text[word.len()..].trim_start().split(|letter| !is_word(letter)).next().unwrap_or_default();
+            next.starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && !is_keyword(next)
         }
         ("apart", Some(last)) => last.kind == Kind::Unit,
         _ => false,

@@ -200,6 +200,8 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Number, _) if known_apart(typed, *before) => more(statement, level),
         (TokenKind::Number, _) => Expected::Unit,
         (TokenKind::Name, "lost" | "found") if behind(known, 1) == Some("mark") => Expected::Value,
+        // Before a name it is a keyword.
+        (TokenKind::Name, "on") if level == Level::State && before.line_ends > 0 => Expected::Connected,
         (TokenKind::Keyword, "exit") if behind(known, 1) == Some("->") => Expected::Exit,
         (TokenKind::Keyword, word) => behind_word(word, statement, level),
         (TokenKind::Name, "vector") if is_declaring(statement) => Expected::Only("of"),
@@ -223,12 +225,10 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
         "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
-        | "exit" | "test" | "property" => Expected::Nothing,
-        "behaviour" => Expected::Nothing,
+        | "exit" | "test" | "property" | "behaviour" | "monitor" => Expected::Nothing,
         "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,
         "is" => Expected::Behaviour,
-        "monitor" => Expected::Nothing,
         "on" => Expected::Connected,
         "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
@@ -252,8 +252,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
 fn is_declaring(statement: &[Token<'_>]) -> bool {
     match statement.first().map(|token| token.text) {
         Some("state" | "monitor") => !statement.iter().any(|token| token.text == "is"),
-        Some("exit") => true,
-        Some("law" | "behaviour" | "whisker") => true,
+        Some("law" | "behaviour" | "exit" | "whisker") => true,
         Some("let") => !has_value(statement),
         _ => false,
     }

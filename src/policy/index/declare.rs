@@ -106,7 +106,8 @@ impl<'t> Declared<'t> {
         let is_type = token.text == "whisker" && before.is_some_and(|before| before.is(":"));
         let Some(known) = keyword(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
         // `always when` and `else if` are one statement, and `-> exit name` is a target.
-        if before.is_some_and(|before| ["always", "else", "->"].contains(&before.text)) {
+        let is_target = token.text == "exit" && before.is_some_and(|before| before.is("->"));
+        if is_target || before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
             return;
         }
         if token.text == "if" && before.is_some_and(|before| is_before_expression(before.text)) {

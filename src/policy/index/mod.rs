@@ -5,6 +5,7 @@
 //! hides nothing but itself. Only the types of derived and local values come from the compiler. If it cannot determine
 //! one, the type comes from the previous index.
 
+mod applied;
 mod candidate;
 mod context;
 mod declare;

@@ -11,7 +11,7 @@ use super::symbol::{Meaning, Symbol, SymbolKind};
 pub(super) enum Owner {
     /// A value of this type.
     Value(Type),
-    /// This symbol, a state.
+    /// This symbol, a state or a monitor.
     State(usize),
     /// This symbol, an enumeration.
     Enumeration(usize),
@@ -72,7 +72,7 @@ impl<'s> Operands<'s> {
             (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
             (TokenKind::Name, "run", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Run)),
             (_, _, Some(Meaning::Symbol(symbol, _))) => match self.symbols[symbol].kind {
-                SymbolKind::State => Some(Owner::State(symbol)),
+                SymbolKind::State | SymbolKind::Monitor => Some(Owner::State(symbol)),
                 SymbolKind::Enumeration => Some(Owner::Enumeration(symbol)),
                 _ => self.symbols[symbol].r#type.map(Owner::Value),
             },

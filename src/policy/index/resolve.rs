@@ -9,7 +9,8 @@ use crate::policy::format::{Token, TokenKind};
 use crate::policy::types::{Type, dimension};
 use vibrissa_runtime::units::parse_unit;
 
-use super::declare::{behaviour_around, span_of};
+use super::applied::{self, Applied};
+use super::declare::span_of;
 use super::import::Import;
 use super::keyword::{Keyword, Position, keyword};
 use super::operands::{Operands, Owner};
@@ -42,9 +43,7 @@ pub(super) fn resolve(
     let mut type_end = 0;
     // The family whose ranges are being read.
     let mut family = None;
-    // The state that was declared last, and the behaviours of the statement and of all open braces.
-    let (mut state, mut used, mut frames): (Option<usize>, Option<usize>, Vec<Option<usize>>) =
-        (None, None, Vec::new());
+    let mut applied = Applied::default();
     for (index, token) in tokens.iter().enumerate() {
         names.advance(token.start);
         let last = imports.partition_point(|import| import.tokens.start < index).checked_sub(1);
@@ -86,13 +85,9 @@ pub(super) fn resolve(
                     symbols.iter().position(is_it).map(|choice| Meaning::Symbol(choice, Role::Reads))
                 }
                 Owner::State(outer) => {
-                    let used = resolved.behaviours.get(&outer).copied();
-                    let inner = match (symbols[outer].kind, used) {
-                        (SymbolKind::Monitor, used) => memory_of(symbols, used.unwrap_or(outer), token.text),
-                        (_, Some(behaviour)) => within(symbols, behaviour, SymbolKind::State, token.text),
-                        (_, None) => names.state(token.text),
-                    };
-                    inner.map(|state| Meaning::Symbol(state, Role::Reads))
+                    let inner = applied::inner(symbols, &resolved.behaviours, outer, token.text);
+                    let state = inner.or_else(|| names.state(token.text));
+                    state.map(|state| Meaning::Symbol(state, Role::Reads))
                 }
             }),
             TokenKind::Name
@@ -102,11 +97,7 @@ pub(super) fn resolve(
                 let is_declared = symbols[argument].span == span_of(*token);
                 Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
             }
-            TokenKind::Name if is_before("on") => {
-                let behaviour = frames.last().copied().flatten();
-                let exit = behaviour.and_then(|of| within(symbols, of, SymbolKind::Exit, token.text));
-                exit.map(|exit| Meaning::Symbol(exit, Role::Reads))
-            }
+            TokenKind::Name if is_before("on") => applied.exit(symbols, token.text),
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(span_of(*token), token.text, role)
@@ -117,26 +108,9 @@ pub(super) fn resolve(
             }
             _ => None,
         };
-        match (meaning, token.text) {
-            (Some(Meaning::Symbol(symbol, Role::Declares)), _)
-                if matches!(symbols[symbol].kind, SymbolKind::State | SymbolKind::Monitor) =>
-            {
-                (state, used) = (Some(symbol), None);
-            }
-            (Some(Meaning::Symbol(symbol, _)), _)
-                if is_before("is") && matches!(symbols[symbol].kind, SymbolKind::Behaviour | SymbolKind::Monitor) =>
-            {
-                used = Some(symbol);
-                resolved.behaviours.extend(state.map(|state| (state, symbol)));
-            }
-            (_, "{") => {
-                family = None;
-                frames.push(used.take());
-            }
-            (_, "}") => {
-                frames.pop();
-            }
-            _ => {}
+        applied.read((token.text, is_before("is")), meaning, symbols, &mut resolved.behaviours);
+        if token.is("{") {
+            family = None;
         }
         if token.is(".") {
             resolved.owners.extend(operands.last.map(|owner| (token.start, owner)));
@@ -162,22 +136,6 @@ fn of_import(source: &Source, symbols: &[Symbol], own: usize, import: &Import) -
     let names = import.names.iter().flatten();
     let names = names.map(|&span| Use { span, meaning: brought(source.slice(span)).unwrap_or(Meaning::Unknown) });
     std::iter::once(file).chain(names).collect()
-}
-
-/// The memory with a name of a monitor.
-fn memory_of(symbols: &[Symbol], monitor: usize, name: &str) -> Option<usize> {
-    let is_meant =
-        |symbol: &Symbol| symbol.kind == SymbolKind::Memory && symbol.owner == Some(monitor) && symbol.name == name;
-    symbols.iter().position(is_meant)
-}
-
-/// The symbol of a kind and a name in a behaviour.
-fn within(symbols: &[Symbol], behaviour: usize, kind: SymbolKind, name: &str) -> Option<usize> {
-    let is_meant = |&index: &usize| {
-        let symbol = &symbols[index];
-        symbol.kind == kind && symbol.name == name && behaviour_around(symbols, index) == Some(behaviour)
-    };
-    (behaviour..symbols.len()).find(is_meant)
 }
 
 /// True if the name of a family follows the tokens: after `property "title" over`.

@@ -30,6 +30,12 @@ impl<'f> Hierarchy<'f> {
         from.and_then(|from| self.states.get(from)).map_or(0, |state| state.instance)
     }
 
+    /// True if the states of an instance are those of a behaviour.
+    pub(super) fn is_behaviour(&self, instance: usize) -> bool {
+        let name = self.instances.get(instance).map(|instance| instance.name.span);
+        instance > 0 || self.states.first().map(|state| state.name.span) == name
+    }
+
     /// The file that contains the text of a state.
     pub(super) fn file(&self, state: usize) -> usize {
         self.instances[self.states[state].instance].file

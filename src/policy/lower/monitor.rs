@@ -67,12 +67,14 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the initial values of a monitor's memory.
     fn monitor_memory(&mut self, scope: &mut Scope<'f>, monitor: &'f Monitor) {
+        let variables = std::mem::take(&mut self.variables);
         self.declaring = &monitor.memory;
         for (name, value) in &monitor.memory {
             let memory = self.expression(scope, value).map(|value| self.copied(value));
             self.bind(scope, 0, name, memory);
         }
         self.declaring = &[];
+        self.variables = variables;
     }
 
     /// Lowers the statements of all monitors. `scope` has the names of the machine.

@@ -25,6 +25,8 @@ pub(super) struct Names<'f> {
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
     pub(super) enumerations: HashMap<&'f str, &'f Enumeration>,
+    /// The names of behaviours.
+    pub(super) behaviours: HashSet<&'f str>,
     /// The names of monitors that use others.
     pub(super) running: HashSet<&'f str>,
     /// The monitors that others can use, each with the number of its file.
@@ -113,6 +115,7 @@ impl<'f> Compiler<'f> {
         names.memory = file.memory.iter().map(|(name, _)| name.text.as_str()).collect();
         names.derived = file.derived.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
         let contents = file.monitors.iter().filter(|item| item.used.is_none());
+        names.behaviours = file.behaviours.iter().map(|item| item.name.text.as_str()).collect();
         let running = file.monitors.iter().filter(|item| item.used.is_some());
         names.running = running.map(|item| item.name.text.as_str()).collect();
         names.monitors = contents.map(|item| (item.name.text.as_str(), (number, item))).collect();
@@ -149,12 +152,14 @@ impl<'f> Compiler<'f> {
                     let derived = other.derived.iter().find(|item| item.name.span == name.span);
                     let law = other.laws.iter().find(|item| item.name.span == name.span);
                     let enumeration = other.enumerations.iter().find(|item| item.name.span == name.span);
+                    let behaviour = other.behaviours.iter().find(|item| item.name.span == name.span);
                     let monitor = other.monitors.iter().find(|item| item.name.span == name.span);
                     let names = self.names_mut();
                     names.items.insert(text, name.span);
                     names.enumerations.extend(enumeration.map(|item| (text, item)));
                     names.derived.extend(derived.map(|item| (text, (number, item))));
                     names.laws.extend(law.map(|item| (text, (number, item))));
+                    names.behaviours.extend(behaviour.map(|item| item.name.text.as_str()));
                     names.monitors.extend(monitor.map(|item| (text, (number, item))));
                 }
             }

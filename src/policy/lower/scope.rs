@@ -80,6 +80,22 @@ impl<'f> Compiler<'f> {
         scope.insert(name, meaning);
     }
 
+    /// Advice for the name of an item that is no value here.
+    fn item_advice(&self, text: &str) -> String {
+        let names = self.names();
+        if names.memory.contains(text) {
+            format!("`{text}` is memory of the machine; give it to a behaviour or a monitor as an argument")
+        } else if names.is_monitor(text) {
+            format!(
+                "`{text}` is a monitor; states and global transitions can read its memory, unless it has arguments and is only used by others"
+            )
+        } else if names.behaviours.contains(text) {
+            format!("`{text}` is a behaviour; a state uses it: `state Name is {text}(\u{2026}) {{ \u{2026} }}`")
+        } else {
+            format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`")
+        }
+    }
+
     /// Reports an unknown name.
     pub(super) fn unknown_name(&mut self, scope: &Scope<'f>, name: &Name) {
         let message = format!("there is no name `{}`", name.text);
@@ -113,13 +129,7 @@ impl<'f> Compiler<'f> {
             })
         } else if self.names().items.contains_key(text.as_str()) {
             // Every other named thing is a value.
-            diagnostic.hint(if self.files.first().is_some_and(|names| names.is_monitor(text)) {
-                format!("`{text}` is a monitor; states and global transitions can read its memory, if it is used or has no arguments")
-            } else if self.hierarchy.states.iter().any(|state| state.name.text == *text) {
-                format!("`{text}` is a state; only transitions lead there: `when \u{2026} -> {text}`")
-            } else {
-                format!("`{text}` is a behaviour; a state uses it: `state Name is {text}(\u{2026}) {{ \u{2026} }}`")
-            })
+            diagnostic.hint(self.item_advice(text))
         } else if self.state_body.iter().any(|known| matches!(known, Statement::Let { name, .. } if name.text == *text))
         {
             diagnostic.hint(format!(

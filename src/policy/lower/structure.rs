@@ -42,7 +42,9 @@ pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<ma
     }
     for (number, behaviours) in files.behaviours.iter().enumerate() {
         compiler.current_file = number;
-        behaviours.iter().for_each(|behaviour| compiler.check_behaviour(behaviour));
+        for behaviour in behaviours {
+            compiler.check_behaviour(behaviour);
+        }
     }
     compiler.current_file = 0;
     parameters

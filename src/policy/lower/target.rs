@@ -196,17 +196,19 @@ impl<'f> Compiler<'f> {
         let around = inside.map(|state| &self.hierarchy.instances[state.instance]);
         match (target_advice(&name.text), around) {
             (Some(advice), _) => diagnostic.hint(advice),
-            (None, Some(Instance { user: Some(user), name: behaviour, .. })) if instance == 0 => {
+            (None, Some(Instance { user: Some(user), name: behaviour, .. }))
+                if !self.hierarchy.is_behaviour(instance) =>
+            {
                 let user = &self.hierarchy.states[*user].name.text;
                 let (name, behaviour) = (&name.text, &behaviour.text);
                 diagnostic.hint(format!(
                     "`{name}` is inside the behaviour `{behaviour}`, which begins in its own initial state: write `-> {user}`"
                 ))
             }
-            (None, Some(Instance { user: None, .. })) if instance != 0 => {
+            _ if self.hierarchy.is_behaviour(instance) => {
                 let behaviour = &self.hierarchy.instances[instance].name.text;
                 diagnostic.hint(format!(
-                    "the behaviour `{behaviour}` does not know the states around it; declare an exit, and write `-> exit name`"
+                    "the behaviour `{behaviour}` knows no states outside of it; declare an exit, and write `-> exit name`"
                 ))
             }
             _ => diagnostic,

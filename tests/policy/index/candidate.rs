@@ -76,7 +76,10 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
     for place in ["let x = w.contour.\u{a7}", "steer body along r0.contour.\u{a7} at speed"] {
         assert_eq!(labels(&writing(place)), ["ready", "tangent", "normal", "end", "point", "curvature"], "{place}");
     }
-    assert_eq!(labels(&writing("let x = body.\u{a7}")), ["yaw", "position", "blocked", "shortfall"]);
+    assert_eq!(
+        labels(&writing("let x = body.\u{a7}")),
+        ["yaw", "position", "blocked", "shortfall", "nose", "tail", "length", "width", "nose_width", "tail_width"]
+    );
     for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}", "let x = w.tip.\u{a7}"] {
         assert_eq!(labels(&writing(place)), [""; 0], "{place}");
     }
@@ -137,7 +140,7 @@ fn a_statement_a_transition_and_an_item_begin_with_their_words() {
         assert!(!has(place, no), "{place}: {:?}", labels(&writing(place)));
     }
     assert_eq!(labels("\u{a7}"), ["machine", "library"]);
-    assert_eq!(labels("library l\n\u{a7}"), ["use", "type", "law", "let"]);
+    assert_eq!(labels("library l\n\u{a7}"), ["use", "type", "law", "behaviour", "monitor", "let"]);
 }
 
 #[test]
@@ -217,7 +220,7 @@ fn where_anything_may_be_written_nothing_is_offered() {
 
 #[test]
 fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
-    let modules = ["feelers", "guards", "mounting", "retrieval", "swipe", "tunnel"];
+    let modules = ["feelers", "guards", "mounting", "platform", "retrieval", "swipe", "tunnel"];
     assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));
     assert_eq!(labels("machine m\nuse std.\u{a7}"), modules);
     assert_eq!(labels("machine m\nuse std.sw\u{a7}\nwhisker r0"), modules);

@@ -1,6 +1,7 @@
 //! What editors are told of the places in a policy.
 
 mod any_text;
+mod behaviour;
 mod candidate;
 mod definition;
 mod hover;

@@ -50,12 +50,13 @@ fn a_state_is_what_its_behaviour_does_until_an_exit() {
 fn two_uses_have_separate_memory_and_begin_anew() {
     let text = format!(
         "machine m whisker r0 initial A {}
-        state A is count(r0, 1) {{ on full(x) -> B }}
-        state B is count(r0, 2) {{ on full(x) -> A }}",
+        state A is count(r0, 2) {{ on full(x) -> B }}
+        state B is count(r0, 3) {{ on full(x) -> A }}",
         counting()
     );
-    let seen = states(&text, &mut Script::touches("x.x.x"));
-    assert_eq!(seen, ["B.Touched", "B.Waiting", "A.Touched", "B.Waiting", "B.Touched"].map(str::to_owned).to_vec());
+    let seen = states(&text, &mut Script::touches("x.x.x.x"));
+    let counted = ["A.Touched", "A.Waiting", "B.Touched", "B.Waiting", "B.Touched", "B.Waiting", "A.Touched"];
+    assert_eq!(seen, counted);
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn the_first_state_is_entered_after_the_monitors_have_run() {
         "machine m whisker w initial A
         monitor felt {{ var count = start + 2  set count = 10 * count + 3 }}
         param start = 1
-        state A {{ var seen = felt.count  {}  when felt.count > 333 -> B }}
+        state A {{ var seen = felt.count  {}  when felt.count > 100 -> B }}
         state B {{ {} }}",
         tell("seen"),
         tell("-seen")
@@ -118,8 +118,8 @@ fn the_bound_of_a_tick_counts_monitors_once() {
 /// A monitor that computes much, remembers, and is read by nothing.
 const WATCHER: &str = "monitor watcher_of_all {
     var seen_by_it = w0.deflection  var count_of_it = 0  var where_it_was = body.position
-    if w0.touching or w1.touching { set count_of_it = count_of_it + lowpass(1, 2 Hz) }
-    set seen_by_it = w1.deflection - seen_by_it  set where_it_was = w1.tip + where_it_was
+    if w0.touching { set count_of_it = count_of_it + lowpass(1, 2 Hz) }
+    set seen_by_it = w0.deflection - seen_by_it  set where_it_was = w0.tip + where_it_was
 }";
 
 proptest! {

@@ -90,6 +90,8 @@ impl Grower<'_> {
 
     /// What runs first in every tick.
     fn grow_monitors(&mut self) {
+        // What the machine can read of them. They know one another only by the values of their arguments.
+        let mut readable: Vec<(String, Type)> = Vec::new();
         for index in 0..self.pick(3) {
             self.next_part();
             let outside = self.scope.len();
@@ -111,11 +113,16 @@ impl Grower<'_> {
                 );
             }
             self.scope.truncate(outside);
-            let values = self.values(&arguments, 2);
-            for (name, r#type, _) in &memory {
-                self.know(&format!("M{index}.{name}"), *r#type, false);
+            for (name, r#type) in &readable {
+                self.know(name, *r#type, false);
             }
+            let values = self.values(&arguments, 2);
+            self.scope.truncate(outside);
+            readable.extend(memory.iter().map(|(name, r#type, _)| (format!("M{index}.{name}"), *r#type)));
             self.program.monitors.push(Monitor { arguments, values, memory, body });
+        }
+        for (name, r#type) in &readable {
+            self.know(name, *r#type, false);
         }
     }
 

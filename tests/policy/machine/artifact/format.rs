@@ -29,7 +29,7 @@ param low = 1 in 0 .. 2  # described
 type Side = left or right
 param side = Side.right
 var n = low
-monitor seen { var x = n  set x = 3 }
+monitor seen { var x = low  set x = 3 }
 record a
 record a.tip in c
 initial Rest
