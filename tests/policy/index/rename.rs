@@ -82,8 +82,8 @@ fn the_machines_memory_has_one_name_wherever_it_is_known() {
 #[test]
 fn a_value_of_an_enumeration_and_an_argument_are_renamed_wherever_they_are_used() {
     let text = "machine m\nwhisker a\ntype Side = left or right\nparam side = Side.left\n\
-                let is_left(of: Side, left: truth = true) = of == Side.left and left\ninitial S\n\
-                state S { stop  when is_left(left: a.touching, of: side) -> T(left: 1 s) }\n\
+                let is_left(which: Side, left: truth = true) = which == Side.left and left\ninitial S\n\
+                state S { stop  when is_left(left: a.touching, which: side) -> T(left: 1 s) }\n\
                 state T(left: time) { stop  after left -> S }\n\
                 test \"it\" in \"a.yaml\" { set side = Side.left  expect run.completed }\n";
     let index = index(text);
