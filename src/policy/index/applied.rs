@@ -50,7 +50,7 @@ impl Applied {
 }
 
 /// True if a symbol may use a behaviour or another monitor.
-pub(super) fn has_content(symbol: &Symbol) -> bool {
+fn has_content(symbol: &Symbol) -> bool {
     matches!(symbol.kind, SymbolKind::State | SymbolKind::Monitor)
 }
 
