@@ -118,8 +118,8 @@ impl Offsets {
         for row in 0..=inertia {
             let gain = column[row] / variance;
             self.state[row] += gain * innovation;
-            for other in 0..=inertia {
-                self.covariance[row][other] -= gain * column[other];
+            for (covariance, other) in self.covariance[row].iter_mut().zip(&column) {
+                *covariance -= gain * other;
             }
         }
         let offset = self.state[measured].abs();
