@@ -43,11 +43,11 @@ const CLEARANCE: f64 = 8e-3;
 const SLIPPED: f64 = 0.3;
 /// Change of the reading in the air (rad) from touch to touch that is no drift.
 const MOVED: f64 = 4e-6;
-/// Number of touches of a whisker that end with a slide of the pin, and the distance (m) from the tip at which a pin has
-/// room for that.
+/// Number of touches of a whisker that end with a slide of the pin, and the least distance (m) of the pin from
+/// the tip.
 const STROKES: usize = 3;
 const STROKE_ROOM: f64 = 15e-3;
-/// Speed (m/s) of such a slide, and its time (s) each way.
+/// Speed (m/s) of such a slide, and its time (s) in each direction.
 const STROKE_SPEED: f64 = 4e-3;
 const STROKE_TIME: f64 = 0.5;
 /// Number of touches without a response after which the whisker is given up.

@@ -36,7 +36,7 @@ fn probed(program: &machine::Program) -> machine::Program {
         double(code);
         target(&mut one.target);
     };
-    [&mut probed.start, &mut probed.entry, &mut probed.body].into_iter().for_each(double);
+    [&mut probed.start, &mut probed.entry, &mut probed.monitors, &mut probed.body].into_iter().for_each(double);
     probed.always.iter_mut().for_each(transition);
     probed.fallback.iter_mut().for_each(target);
     for state in &mut probed.states {

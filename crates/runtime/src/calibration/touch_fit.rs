@@ -66,9 +66,9 @@ pub struct TouchFit {
 /// Readings of a whisker while the object slides along it to its tip, and while it slides back over nearly the same place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// Mean reading on the way to the tip.
+    /// Mean reading while it slides to the tip.
     pub outwards: TouchReading,
-    /// Mean reading on the way back.
+    /// Mean reading while it slides back.
     pub back: TouchReading,
 }
 

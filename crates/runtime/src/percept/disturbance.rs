@@ -85,7 +85,7 @@ impl Disturbance {
     }
 
     /// Adds the samples of a tick that ends at `time` (s) with the body at `pose`, which may be unknown. `measured` is the
-    /// expected motion in this tick, if the platform is known to move in another way than the rig states.
+    /// expected motion in this tick, if the platform is known to move differently from what the rig states.
     pub(super) fn update(&mut self, samples: &[Sample], time: f64, pose: Pose, measured: Option<Motion>) {
         for sample in samples {
             for (base_angle, reading) in self.base_angles.iter_mut().zip(&sample.whiskers) {

@@ -1,6 +1,7 @@
 //! The measured delays and errors of poses and commands.
 
 use crate::geometry::Pose;
+use crate::math;
 use crate::rig::{Estimation, Rig};
 use crate::signal::{Command, Sample};
 
@@ -36,7 +37,7 @@ const FOLLOWING: f64 = 1.0;
 impl Motions {
     /// Creates the measurement for `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
-        let following = crate::math::min((FOLLOWING * rig.sensing.control_rate).recip(), 1.0);
+        let following = math::min((FOLLOWING * rig.sensing.control_rate).recip(), 1.0);
         Self {
             platform: PlatformMotion::new(rig),
             contacts: PoseDelay::new(),

@@ -118,7 +118,7 @@ impl Offsets {
         for row in 0..=inertia {
             let gain = column[row] / variance;
             self.state[row] += gain * innovation;
-            for (covariance, other) in self.covariance[row].iter_mut().zip(column).take(inertia + 1) {
+            for (covariance, other) in self.covariance[row].iter_mut().zip(&column) {
                 *covariance -= gain * other;
             }
         }

@@ -68,7 +68,7 @@ type Velocity = (Vector2, f64);
 
 /// The state of the estimator.
 #[derive(Debug, Clone, Copy)]
-#[expect(clippy::large_enum_variant, reason = "a tick allocates no memory")]
+#[expect(clippy::large_enum_variant, reason = "each whisker has one state, and most of the time it slides")]
 enum State {
     /// Not in contact.
     Free,
