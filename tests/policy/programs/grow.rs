@@ -116,7 +116,7 @@ impl<'g> Grower<'g> {
 
     pub(crate) fn values(&mut self, arguments: &Arguments, depth: u8) -> Vec<Expression> {
         // From one of them on, values have names or are left out.
-        let first = self.pick(arguments.len() + 1);
+        let first = self.pick(2 * arguments.len() + 1);
         let value = |(index, (name, r#type)): (usize, &(String, Type))| {
             if index < first {
                 return self.expression(*r#type, depth);
