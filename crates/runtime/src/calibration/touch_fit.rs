@@ -1,5 +1,7 @@
 //! The fit of a whisker's parameters to touches of a known object.
 
+use std::cmp::Ordering;
+
 use crate::geometry::Pose;
 use crate::math;
 use crate::mechanics::{Obstacle, Touch, TouchMechanics};
@@ -164,6 +166,19 @@ struct Linearised {
     touches: Vec<Option<Touch>>,
 }
 
+impl Linearised {
+    /// True if the state is at least as good as `other`. Far from an unknown face, a touch without an equilibrium costs less
+    /// than one with a wrong reading. Then the touches with an equilibrium count first.
+    fn is_better_than(&self, other: &Self, prior: &Prior) -> bool {
+        let reached = |state: &Self| state.touches.iter().flatten().count();
+        match reached(self).cmp(&reached(other)) {
+            Ordering::Less if prior.has_unknown_face() => false,
+            Ordering::Greater if prior.has_unknown_face() => true,
+            _ => self.cost <= other.cost,
+        }
+    }
+}
+
 impl TouchFit {
     /// What is known before any touch: the rig with the tolerances of manufacture.
     #[must_use]
@@ -210,7 +225,7 @@ impl TouchFit {
                 let mut at = prior.mean;
                 at[Parameter::FaceHeight.index()] = HEIGHT_STEP * f64::from(step);
                 let found = start(&at);
-                if found.cost < state.cost {
+                if found.is_better_than(&state, &prior) {
                     (here, state) = (at, found);
                 }
             }
@@ -224,7 +239,7 @@ impl TouchFit {
             let step = matrix.cholesky()?.solve(&state.gradient);
             let next = here - step;
             let found = linearised(whisker, &next, readings, noise, &prior, &state.touches);
-            if found.cost <= state.cost {
+            if found.is_better_than(&state, &prior) {
                 let size = step.dot(&(state.matrix * step));
                 (here, state, damping) = (next, found, 0.1 * damping);
                 if size < SETTLED * SETTLED {

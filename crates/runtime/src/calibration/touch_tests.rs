@@ -277,9 +277,9 @@ fn rough_face() -> Obstacle {
 
 #[test]
 fn a_face_of_unknown_position_determines_the_stiffness_and_leaves_length_and_base_open() {
-    let stiffness = Parameter::Stiffness.index();
-    let mut deviations = Vec::new();
-    for seed in 0..6 {
+    let tolerances = parameters::tolerances();
+    let open = [Parameter::Length, Parameter::BaseX, Parameter::BaseY].map(Parameter::index);
+    for seed in 0..4 {
         let mut random = Random(seed);
         let mut truth = drawn(&mut random);
         let readings = face_touches(&truth, rough_face(), false, &mut random);
@@ -288,23 +288,24 @@ fn a_face_of_unknown_position_determines_the_stiffness_and_leaves_length_and_bas
         // The rough face, as a difference from the true one.
         truth[Parameter::FaceHeight.index()] = 4e-3;
         truth[Parameter::FaceTurn.index()] = -3_f64.to_radians();
-        let off = |parameter: Parameter| {
-            let index = parameter.index();
-            (fit.parameters[index] - truth[index]) / fit.covariance[(index, index)].sqrt()
-        };
-        assert!(off(Parameter::Stiffness).abs() < 4.0 && off(Parameter::FaceTurn).abs() < 4.0, "{seed}");
-        let share = |parameter: Parameter| {
-            let index = parameter.index();
-            fit.covariance[(index, index)].sqrt() / parameters::tolerances()[index]
-        };
-        deviations.push(fit.covariance[(stiffness, stiffness)].sqrt());
-        assert!(
-            share(Parameter::Length) > 0.8 && math::max(share(Parameter::BaseX), share(Parameter::BaseY)) > 0.8,
-            "{seed}"
+        let deviation = |parameter: Parameter| fit.covariance[(parameter.index(), parameter.index())].sqrt();
+        let off = |parameter: Parameter| (fit.parameters - truth)[parameter.index()] / deviation(parameter);
+        let scaled = nalgebra::Matrix3::from_fn(|row, column| {
+            fit.covariance[(open[row], open[column])] / (tolerances[open[row]] * tolerances[open[column]])
+        });
+        let weakest = scaled.symmetric_eigenvalues().max().sqrt();
+        println!(
+            "stiffness {:.4}, face height {:.2e}, turn {:.2e}, weakest of length and base {weakest:.2}, tips {:.2e}",
+            deviation(Parameter::Stiffness),
+            deviation(Parameter::FaceHeight),
+            deviation(Parameter::FaceTurn),
+            fit.tip_deviation()
         );
+        assert!(is_within(&fit, &truth), "{seed}");
+        assert!(off(Parameter::Stiffness).abs() < 4.0 && off(Parameter::FaceTurn).abs() < 4.0, "{seed}");
+        assert!(deviation(Parameter::Stiffness) < 0.5 * tolerances[Parameter::Stiffness.index()], "{seed}");
+        assert!(weakest > 0.5, "{seed}: {weakest}");
     }
-    println!("deviations of the stiffness {deviations:?}");
-    assert!(deviations.iter().all(|deviation| *deviation < 0.02), "{deviations:?}");
 }
 
 #[test]
@@ -318,7 +319,7 @@ fn a_face_that_is_said_to_be_elsewhere_is_refused() {
 
 /// The edge of a gauge block is a pin without a radius, and its face is where it is said to be.
 #[test]
-fn an_edge_and_a_face_of_a_block_determine_what_a_pin_does() {
+fn an_edge_and_a_face_of_a_block_calibrate_a_whisker() {
     let mut random = Random(3);
     let truth = drawn(&mut random);
     let face = Obstacle::Face { point: Point2::origin(), normal: 0.0 };
@@ -346,7 +347,9 @@ fn an_edge_and_a_face_of_a_block_determine_what_a_pin_does() {
     }
     let fit = TouchFit::accepted(&left(), &readings, &noise, std::iter::empty()).unwrap();
     assert!(is_within(&fit, &truth));
-    let workspace = Workspace::new(&left(), &fit.parameters);
-    assert!(workspace.deviation(&fit.covariance) < 0.1e-3, "{}", workspace.deviation(&fit.covariance));
-    assert!(workspace.error(&(fit.parameters - truth)) < 0.2e-3);
+    // What the touches are worth: a fraction of the tolerances, and no less than the fit states.
+    let deviation = fit.tip_deviation();
+    println!("tip deviation {deviation:.3e}, before {:.3e}", TouchFit::untouched(&left()).tip_deviation());
+    assert!(deviation < 0.25 * TouchFit::untouched(&left()).tip_deviation(), "{deviation}");
+    assert!(Workspace::new(&left(), &fit.parameters).error(&(fit.parameters - truth)) < 3.0 * deviation);
 }
