@@ -42,13 +42,13 @@ fn kind(kind: CandidateKind) -> CompletionItemKind {
         CandidateKind::Function => CompletionItemKind::Function,
         CandidateKind::Member => CompletionItemKind::Field,
         CandidateKind::Type => CompletionItemKind::Struct,
-        CandidateKind::Module | CandidateKind::Family => CompletionItemKind::Module,
+        CandidateKind::Module | CandidateKind::Family | CandidateKind::Symbol(SymbolKind::Behaviour) => {
+            CompletionItemKind::Module
+        }
         CandidateKind::Unit => CompletionItemKind::Unit,
         CandidateKind::Symbol(SymbolKind::Enumeration) => CompletionItemKind::Enum,
         CandidateKind::Symbol(SymbolKind::Choice) => CompletionItemKind::EnumMember,
         CandidateKind::Symbol(SymbolKind::State) => CompletionItemKind::Class,
-        CandidateKind::Symbol(SymbolKind::Behaviour) => CompletionItemKind::Module,
-        CandidateKind::Symbol(SymbolKind::Monitor) => CompletionItemKind::Variable,
         CandidateKind::Symbol(SymbolKind::Exit) => CompletionItemKind::Event,
         CandidateKind::Symbol(SymbolKind::Law) => CompletionItemKind::Method,
         CandidateKind::Symbol(SymbolKind::Parameter | SymbolKind::Machine) => CompletionItemKind::Constant,

@@ -128,7 +128,7 @@ mod tests {
                 let along = (f64::from(piece) + 0.5) / f64::from(count) * whisker.shaft.length;
                 let step = 1e-4;
                 let change = (place(step, along) - 2.0 * place(0.0, along) + place(-step, along)) / (step * step);
-                let mass = whisker.shaft.density * std::f64::consts::PI * crate::math::square(whisker.shaft.radius) * whisker.shaft.length;
+                let mass = whisker.shaft.density * std::f64::consts::PI * math::square(whisker.shaft.radius) * whisker.shaft.length;
                 moment -= mass / f64::from(count) * along * change.dot(&normal);
             }
             let expected = moment / whisker.hinge.stiffness;

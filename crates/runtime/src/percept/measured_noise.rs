@@ -57,6 +57,8 @@ impl MeasuredNoise {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use proptest::prelude::*;
 
     use super::super::robust_variance::tests::normals;
@@ -75,10 +77,10 @@ mod tests {
         fn noise_is_found_in_spite_of_a_swing_and_single_touches(
             values in normals(1500), exponent in -6.5..-5.0_f64, swing in 0.0..1e-5_f64, frequency in 1.0..20.0_f64,
         ) {
-            let deviation = crate::math::exp(exponent * std::f64::consts::LN_10);
+            let deviation = math::powf(10.0, exponent);
             let readings = values.iter().enumerate().map(|(index, value)| {
                 let touch = if index % 100 == 50 { 1e-4 } else { 0.0 };
-                swing * crate::math::sin(f64::from(u32::try_from(index).unwrap_or(0)) / 300.0 * frequency * std::f64::consts::TAU) + touch + deviation * value
+                swing * math::sin(index as f64 / 300.0 * frequency * TAU) + touch + deviation * value
             });
             let found = measured(readings);
             prop_assert!((0.75..1.4).contains(&(found / deviation)), "{found} {deviation}");
@@ -86,7 +88,7 @@ mod tests {
 
         #[test]
         fn exact_readings_have_the_stated_noise(swing in 0.0..1e-5_f64, frequency in 0.1..15.0_f64) {
-            let readings = (0..1500).map(|index| swing * crate::math::sin(f64::from(index) / 300.0 * frequency * std::f64::consts::TAU));
+            let readings = (0..1500).map(|index| swing * math::sin(f64::from(index) / 300.0 * frequency * TAU));
             prop_assert_eq!(measured(readings).to_bits(), 0.0_f64.to_bits());
         }
     }

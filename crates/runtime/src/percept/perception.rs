@@ -56,7 +56,7 @@ pub struct Perception {
     offsets: Option<Offsets>,
     acceleration: MeasuredAcceleration,
     /// Delays and errors of poses and commands, if they are estimated.
-    motions: Option<Motions>,
+    motions: Option<Box<Motions>>,
     /// Pose by the newest sample, or unknown.
     measured: Pose,
     /// Time constant of the servos (s) according to the rig.
@@ -176,7 +176,7 @@ impl Perception {
             contours: Vec::new(),
             loops: vec![LoopWatch::default(); whiskers.len()],
             disturbance: Disturbance::new(rig),
-            motions: (sensing.estimation.delay || sensing.estimation.pose_noise).then(|| Motions::new(rig)),
+            motions: (sensing.estimation.delay || sensing.estimation.pose_noise).then(|| Box::new(Motions::new(rig))),
             acceleration: MeasuredAcceleration::new(),
             measured: Pose::default(),
             servo: rig.platform.servo,
@@ -242,7 +242,7 @@ impl Perception {
                 (self.body, self.measured) = (body, sample.body);
             }
         }
-        let pose_deviation = self.motions.as_ref().map(Motions::pose_deviation).unwrap_or_default();
+        let pose_deviation = self.motions.as_deref().map(Motions::pose_deviation).unwrap_or_default();
         self.at_effect = self.motions.as_ref().map_or(self.body, |motions| motions.at_effect(self.measured));
         for whisker in &mut self.whiskers {
             whisker.update(self.body, self.at_effect, pose_deviation);
@@ -312,7 +312,7 @@ impl Perception {
     /// Measured time constant (s) of the servos, or that of the rig.
     #[must_use]
     pub fn servo(&self) -> f64 {
-        self.motions.as_ref().and_then(Motions::servo).unwrap_or(self.servo)
+        self.motions.as_deref().and_then(Motions::servo).unwrap_or(self.servo)
     }
 
     /// Filtered base angle (rad) of a whisker, or NaN in a tick without a valid reading.

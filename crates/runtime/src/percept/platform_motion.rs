@@ -275,7 +275,7 @@ mod tests {
         let late = (delay / step).round();
         let at = |index: f64| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-            let tick = (crate::math::max(index, 0.0) / f64::from(per_tick)) as usize;
+            let tick = (math::max(index, 0.0) / f64::from(per_tick)) as usize;
             // Every command holds for ten ticks. The first one is given at the end of the first tick.
             let before = tick.checked_sub(1).and_then(|tick| commands.get(tick / 10));
             before

@@ -98,6 +98,7 @@ mod tests {
 
     use super::super::robust_variance::tests::normals;
     use super::*;
+    use crate::math;
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(40))]
@@ -106,7 +107,7 @@ mod tests {
         fn a_wander_is_found_on_a_platform_that_is_pushed(
             values in normals(3600), position in 5e-5..5e-4_f64, heading in 5e-4..5e-3_f64, push in -1e-2..1e-2_f64,
         ) {
-            let decay = crate::math::exp(-1.0 / 30.0);
+            let decay = math::exp(-1.0 / 30.0);
             let mut noise = PoseNoise::new();
             let mut error = Motion::zeros();
             for values in values.chunks(3) {

@@ -76,7 +76,7 @@ pub(super) mod tests {
 
         #[test]
         fn a_tenth_of_outliers_hardly_matters(values in normals(600), exponent in -6.0..2.0_f64) {
-            let deviation = crate::math::exp(exponent * std::f64::consts::LN_10);
+            let deviation = math::powf(10.0, exponent);
             let mut variance = RobustVariance::new(deviation);
             for (index, value) in values.iter().enumerate() {
                 variance.take(if index % 10 == 0 { 1e3 * deviation } else { deviation * value });

@@ -125,7 +125,7 @@ mod tests {
     fn tip_body(whisker: &Whisker, [offset, friction]: [f64; 2], reading: f64, normal: f64) -> Vector2 {
         let (base_angle, side) = (reading - offset, reading.signum());
         let seen = if side < 0.0 { whisker.mirrored() } else { whisker.clone() };
-        let force = (side * (normal - whisker.direction_body)).rem_euclid(2.0 * PI) - crate::math::atan2(friction, 1.0);
+        let force = (side * (normal - whisker.direction_body)).rem_euclid(2.0 * PI) - math::atan(friction);
         let tip = TipTable::new(&seen).at(base_angle.abs(), force).unwrap().tip_base;
         whisker.base_body.coords + rotate(Vector2::new(tip.x, side * tip.y), whisker.direction_body)
     }
