@@ -195,11 +195,10 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
         }
         if let Some(LibrarySummary { name, laws, values, behaviours, monitors }) = &library {
             let (laws, values) = (count(laws.len(), "law"), count(values.len(), "value"));
-            let (behaviours, monitors) = (count(behaviours.len(), "behaviour"), count(monitors.len(), "monitor"));
-            output::result(format_args!(
-                "{}: library {name}, {laws}, {values}, {behaviours}, {monitors}",
-                source.name
-            ))?;
+            let others = [(behaviours.len(), "behaviour"), (monitors.len(), "monitor")];
+            let others = others.into_iter().filter(|(number, _)| *number > 0);
+            let others: String = others.map(|(number, of)| format!(", {}", count(number, of))).collect();
+            output::result(format_args!("{}: library {name}, {laws}, {values}{others}", source.name))?;
         }
     }
     let (file, diagnostics) = (source.name.clone(), records(&source, &diagnostics));

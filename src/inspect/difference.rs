@@ -75,8 +75,7 @@ pub fn first_difference(
 ) -> Result<PolicyDifference, ExecuteError> {
     let scenario = trial.scene.name.clone();
     let mut world = trial.world()?;
-    let (mut own, mut other) =
-        (Side::new(trial, policies[0], &scenario)?, Side::new(second, policies[1], &scenario)?);
+    let (mut own, mut other) = (Side::new(trial, policies[0], &scenario)?, Side::new(second, policies[1], &scenario)?);
     let period = trial.scene.rig.sensing.control_rate.recip();
     let mut monitor = Monitor::new(&own.control, &trial.scene.stop, period);
     let (mut command, mut equal_ticks, mut states_differ_from) = (Command::STOP, 0, None);

@@ -223,7 +223,7 @@ fn is_behind_tab_and_number(text: &str) -> bool {
 
 /// True if the grammar expected an expression.
 fn is_value_due(rules: &[Rule]) -> bool {
-    rules.iter().any(|rule| matches!(rule, Rule::access | Rule::expression | Rule::mover))
+    rules.iter().any(|rule| matches!(rule, Rule::access | Rule::branch | Rule::expression | Rule::mover))
 }
 
 /// The expected constructs, the most informative first.
@@ -293,7 +293,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_after => (3, "`after`"),
         Rule::kw_if if !among.contains(&Rule::kw_do) && !is_value_due(among) => (2, "`if`"),
         Rule::close_brace => (4, "`}`"),
-        Rule::access | Rule::expression | Rule::mover => (0, "a value"),
+        Rule::access | Rule::branch | Rule::expression | Rule::mover => (0, "a value"),
         Rule::sign | Rule::times => (CONTINUES, "an operator"),
         Rule::unit => (CONTINUES, "a unit"),
         _ => return None,

@@ -74,22 +74,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
         ));
     }
 
-    for (import, &library) in file.uses.iter().zip(files.links.first().into_iter().flatten()) {
-        let Some(library) = files.libraries.get(library) else { continue };
-        let mut own = library.exports();
-        match &import.names {
-            Some(names) => {
-                let idle = names.iter().filter(|name| !used.has(&name.text));
-                warnings.extend(idle.map(|name| never_used("P0506", "name", name, "leave it out of the list")));
-            }
-            None if own.any(|name| used.has(&name.text)) => {}
-            None => {
-                let message = format!("the library `{}` is never used", library.name.text);
-                let warning = Diagnostic::warning("P0506", message, import.span, "never used");
-                warnings.push(warning.hint("use it, or remove this line"));
-            }
-        }
-    }
+    unused_imports(files, &used, warnings);
     if file.is_library {
         return;
     }
@@ -119,4 +104,25 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
 fn never_used(code: &'static str, kind: &str, name: &Name, hint: impl Into<String>) -> Diagnostic {
     let message = format!("the {kind} `{}` is never used", name.text);
     Diagnostic::warning(code, message, name.span, "never used").hint(hint)
+}
+
+/// Warns about imports that nothing uses.
+fn unused_imports(files: &Files, used: &Names<'_>, warnings: &mut Vec<Diagnostic>) {
+    let file = &files.main;
+    for (import, &library) in file.uses.iter().zip(files.links.first().into_iter().flatten()) {
+        let Some(library) = files.libraries.get(library) else { continue };
+        let mut own = library.exports();
+        match &import.names {
+            Some(names) => {
+                let idle = names.iter().filter(|name| !used.has(&name.text));
+                warnings.extend(idle.map(|name| never_used("P0506", "name", name, "leave it out of the list")));
+            }
+            None if own.any(|name| used.has(&name.text)) => {}
+            None => {
+                let message = format!("the library `{}` is never used", library.name.text);
+                let warning = Diagnostic::warning("P0506", message, import.span, "never used");
+                warnings.push(warning.hint("use it, or remove this line"));
+            }
+        }
+    }
 }

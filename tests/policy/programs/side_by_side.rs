@@ -213,7 +213,7 @@ const DONE: [(&str, &[&str]); 42] = [
 fn what_is_compared_does_all_that_programs_can_do() {
     let mut runner = TestRunner::deterministic();
     let (mut counts, mut compiled, mut refused) = (BTreeMap::new(), 0, 0);
-    while compiled < 800 {
+    while compiled < 2000 {
         let (program, script) = (programs(), scripts()).new_tree(&mut runner).unwrap().current();
         let Some(machine) = machine(&program.text()) else {
             refused += 1;
@@ -226,5 +226,5 @@ fn what_is_compared_does_all_that_programs_can_do() {
     }
     let pairs = DONE.iter().flat_map(|(what, parts)| parts.iter().map(move |part| (*what, *part)));
     let seldom: Vec<_> = pairs.filter(|pair| counts.get(pair).is_none_or(|&count| count < 8)).collect();
-    assert!(seldom.is_empty() && refused < 300, "{seldom:#?} in {refused} refused {counts:#?}");
+    assert!(seldom.is_empty() && refused < 750, "{seldom:#?} in {refused} refused {counts:#?}");
 }

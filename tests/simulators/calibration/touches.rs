@@ -56,20 +56,6 @@ fn a_bent_shaft_is_refused_as_bent() {
     assert_eq!(found.within(), [None, None]);
 }
 
-#[test]
-fn a_shaft_that_belongs_to_another_base_is_refused_as_swapped() {
-    let mut mismatch = Mismatch::default();
-    mismatch.whiskers.entry("l0".to_owned()).or_default().set(Property::Length, -15e-3);
-    let mut scene = scene(mismatch);
-    // The rig has a short whisker on the other side.
-    scene.rig.whiskers.iter_mut().find(|whisker| whisker.name == "r0").unwrap().shaft.length -= 15e-3;
-    let found = ArrayCalibration::run(&scene, WorldKind::QuasiStatic.into(), 0, &TouchLimits::default()).unwrap();
-    for touches in &found.whiskers {
-        let is_swapped = matches!(&touches.fit, Err(TouchRefusal::Swapped { reason, .. }) if reason.contains("`r0`"));
-        assert_eq!(is_swapped, touches.whisker == "l0", "{:?}", touches.fit);
-    }
-}
-
 #[cfg(feature = "sim")]
 #[test]
 fn a_plausible_array_is_accepted_within_five_minutes() {
