@@ -194,11 +194,10 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
             output::result(describe(&source.name, machine))?;
         }
         if let Some(LibrarySummary { name, laws, values, behaviours, monitors }) = &library {
-            let (laws, values) = (count(laws.len(), "law"), count(values.len(), "value"));
+            let mut parts = vec![count(laws.len(), "law"), count(values.len(), "value")];
             let others = [(behaviours.len(), "behaviour"), (monitors.len(), "monitor")];
-            let others = others.into_iter().filter(|(number, _)| *number > 0);
-            let others: String = others.map(|(number, of)| format!(", {}", count(number, of))).collect();
-            output::result(format_args!("{}: library {name}, {laws}, {values}{others}", source.name))?;
+            parts.extend(others.iter().filter(|(number, _)| *number > 0).map(|&(number, of)| count(number, of)));
+            output::result(format_args!("{}: library {name}, {}", source.name, parts.join(", ")))?;
         }
     }
     let (file, diagnostics) = (source.name.clone(), records(&source, &diagnostics));

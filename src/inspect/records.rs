@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use vibrissa_runtime::machine::Standing;
+use vibrissa_runtime::machine::{Standing, TIME_SLACK};
 use vibrissa_runtime::units::{Dimension, format_si};
 
 use crate::policy::explain::{ExplainedTransition, Judged};
@@ -165,7 +165,7 @@ impl GuardRecord {
             return self.parts.iter().map(part).collect::<Vec<_>>().join(", ");
         }
         match (self.elapsed_s, self.needed_s) {
-            (Some(elapsed), Some(needed)) if elapsed < needed => {
+            (Some(elapsed), Some(needed)) if elapsed < needed - TIME_SLACK => {
                 let [rest, needed] = [needed - elapsed, needed].map(|time| format_si(time, Dimension::TIME));
                 format!("{rest} of {needed}")
             }

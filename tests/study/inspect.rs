@@ -101,7 +101,7 @@ fn the_expression_at_which_a_number_is_not_finite_is_named() {
 
 #[test]
 fn policies_differ_first_where_the_edited_transition_is_taken() {
-    let edited = THESIS.replacen("when r0.touching", "when r0.touching and time > 2 s", 1);
+    let edited = THESIS.replacen("when r0.touching ->", "when r0.touching and time > 2 s ->", 1);
     assert_ne!(edited, THESIS);
     let [own, other] = [THESIS, &edited].map(|text| breakpoints(text, &[]));
     let difference = first_difference(&trial("box", &own), [&own, &other], &trial("box", &other)).unwrap();
