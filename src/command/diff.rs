@@ -58,8 +58,8 @@ pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
         let (own, other) = (trial(first), trial(second));
         differences.push(first_difference(&own, [first, second], &other).map_err(Failure::execute(&own))?);
     }
-    output::documents_of_any_number(arguments.format, &differences, || {
-        differences.iter().flat_map(difference_tables).collect()
+    output::documents(arguments.format, &differences, || {
+        differences.iter().flat_map(difference_tables).collect::<Vec<_>>()
     })?;
     let is_equal = |difference: &PolicyDifference| difference.first.is_none();
     Ok(if differences.iter().all(is_equal) { Exit::Done } else { Exit::Unexpected })

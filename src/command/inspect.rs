@@ -70,7 +70,7 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
         file.write(lines)?;
     }
     if !stops.is_empty() {
-        output::documents_of_any_number(arguments.format, &stops, || stops.iter().flat_map(stop_tables).collect())?;
+        output::documents(arguments.format, &stops, || stops.iter().flat_map(stop_tables).collect::<Vec<_>>())?;
     }
     if stops.is_empty() || !results.is_empty() {
         show(&results, arguments)?;

@@ -49,15 +49,6 @@ pub(super) fn documents<T: AsRef<[Table]>>(
     if format.json { json_list(documents) } else { self::tables(tables().as_ref(), format.wide) }
 }
 
-/// Prints documents as a JSON list, or the tables of `tables`, of which there may be any number.
-pub(super) fn documents_of_any_number(
-    format: Format,
-    documents: &[impl Document],
-    tables: impl FnOnce() -> Vec<Table>,
-) -> Result<(), Failure> {
-    if format.json { json_list(documents) } else { self::tables(&tables(), format.wide) }
-}
-
 /// Prints a document as JSON, or the tables of `tables`.
 pub(super) fn document<T: AsRef<[Table]>>(
     format: Format,

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::policy::explain::{Explained, explain};
-use vibrissa_runtime::machine::Guard;
+use vibrissa_runtime::machine::{Guard, Register};
 
 /// A condition or a state at which a run stops.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,6 +10,8 @@ pub struct Breakpoint {
     /// The text: the name of a state, or a condition.
     pub text: String,
     pub(super) place: Place,
+    /// Register of the time (s) for which a condition must hold.
+    pub(super) lasting: Option<Register>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +33,7 @@ pub struct Breakpoints {
 
 impl Breakpoints {
     /// Explains a policy and adds breakpoints to it. A text that is the name of a state stops the run when that state is entered.
-    /// Every other text is a condition, and may contain what the condition of a global transition may.
+    /// Every other text is a condition, with or without a time after `for`. It may contain what a global transition may.
     ///
     /// # Errors
     /// Those of [`explain`], with the source to which they belong. It contains the breakpoints after the text of the policy.
@@ -44,13 +46,20 @@ impl Breakpoints {
         for text in texts {
             let place = state(text).map_or(Place::Condition(next), Place::State);
             next += usize::from(matches!(place, Place::Condition(_)));
-            breakpoints.push(Breakpoint { text: text.clone(), place });
+            breakpoints.push(Breakpoint { text: text.clone(), place, lasting: None });
         }
         if conditions.is_empty() {
             return Ok(Self { explained: plain, breakpoints });
         }
         let whole = with_conditions(source, &conditions);
         let mut explained = explain(&whole).map_err(|faults| (whole, faults))?;
+        for breakpoint in &mut breakpoints {
+            if let Place::Condition(index) = breakpoint.place
+                && let Some(Guard::When { lasting, .. }) = explained.program.always.get(index).map(|one| &one.guard)
+            {
+                breakpoint.lasting = lasting.map(|(duration, _)| duration);
+            }
+        }
         disable(&mut explained, first);
         Ok(Self { explained, breakpoints })
     }

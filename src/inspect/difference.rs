@@ -11,7 +11,7 @@ use crate::run::Monitor;
 use crate::trial::{ExecuteError, Trial};
 
 use super::breakpoint::Breakpoints;
-use super::inspector::Inspector;
+use super::inspector::{Inspector, from_outside};
 use super::records::{GuardRecord, TransitionLine};
 
 /// The comparison of two policies on the samples of a run of the first one.
@@ -141,10 +141,8 @@ fn names(control: &Control) -> Vec<String> {
         return Vec::new();
     }
     let program = machine.program();
-    let mut names: Vec<String> =
-        program.outward(machine.state()).map(|state| program.states[state].name.to_string()).collect();
-    names.reverse();
-    names
+    let states = from_outside(program, machine.state()).into_iter();
+    states.map(|state| program.states[state].name.to_string()).collect()
 }
 
 fn bits(command: Command) -> [u64; 3] {

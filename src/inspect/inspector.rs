@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use vibrissa_runtime::machine::{Observer, Standing, TransitionId, TriedGuard};
+use vibrissa_runtime::machine::{Observer, Program, Standing, TIME_SLACK, Target, TransitionId, TriedGuard};
 
 use crate::policy::explain::Variable;
 use crate::run::{Trace, Watcher};
@@ -23,12 +23,14 @@ pub struct Inspector<'b> {
     registers: Vec<f64>,
     /// The transitions of the current tick.
     taken: Vec<TransitionLine>,
-    /// The states that were entered in the current tick, by the transitions.
+    /// The innermost active state.
     innermost: Option<usize>,
     /// The first tick after the entry of the innermost state.
     entered: usize,
     ticks: usize,
     transitions: Vec<TransitionLine>,
+    /// For each breakpoint, the time (s) since which its condition holds.
+    holding_since: Vec<Option<f64>>,
     stop: Option<StopRecord>,
     origin: Option<String>,
 }
@@ -47,6 +49,7 @@ impl<'b> Inspector<'b> {
             entered: 0,
             ticks: 0,
             transitions: Vec::new(),
+            holding_since: vec![None; policy.breakpoints.len()],
             stop: None,
             origin: None,
         }
@@ -90,22 +93,31 @@ impl<'b> Inspector<'b> {
         id.state.is_none() && self.policy.breakpoints.iter().any(is_its)
     }
 
-    /// The first breakpoint that the tick hit. `state` is the innermost active state.
-    fn hit(&self, state: usize) -> Option<&'b Breakpoint> {
-        let program = &self.policy.explained.program;
-        self.policy.breakpoints.iter().find(|breakpoint| match breakpoint.place {
-            Place::State(wanted) => self.entered == self.ticks && program.contains(wanted, state),
-            Place::Condition(index) => {
-                let condition = self.policy.explained.always.get(index).and_then(|always| always.condition.as_ref());
-                condition.is_some_and(|condition| condition.missing(&self.registers).is_empty())
+    /// The first breakpoint that the tick at `now` (s) hit. `state` is the innermost active state.
+    fn hit(&mut self, state: usize, now: f64) -> Option<&'b Breakpoint> {
+        let explained = &self.policy.explained;
+        let mut hit = None;
+        for (breakpoint, since) in self.policy.breakpoints.iter().zip(&mut self.holding_since) {
+            let is_hit = match breakpoint.place {
+                Place::State(wanted) => self.entered == self.ticks && explained.program.contains(wanted, state),
+                Place::Condition(index) => {
+                    let condition = explained.always.get(index).and_then(|always| always.condition.as_ref());
+                    let is_met = condition.is_some_and(|condition| condition.missing(&self.registers).is_empty());
+                    *since = is_met.then(|| since.unwrap_or(now));
+                    let needed = breakpoint.lasting.and_then(|register| self.registers.get(usize::from(register)));
+                    since.is_some_and(|since| now - since >= needed.copied().unwrap_or(0.0) - TIME_SLACK)
+                }
+            };
+            if is_hit {
+                hit = hit.or(Some(breakpoint));
             }
-        })
+        }
+        hit
     }
 
     fn stopped(&self, breakpoint: &Breakpoint, time_s: f64, innermost: usize) -> StopRecord {
         let explained = &self.policy.explained;
-        let mut states: Vec<usize> = explained.program.outward(innermost).collect();
-        states.reverse();
+        let states = from_outside(&explained.program, innermost);
         let variables = |state: Option<usize>, variables: &[Variable]| {
             let name = state.map(|state| self.state_name(state));
             let value = |variable: &Variable| {
@@ -169,15 +181,11 @@ impl Inspector<'_> {
         let program = &self.policy.explained.program;
         let transitions =
             id.state.map_or(Some(&program.always), |state| Some(&program.states.get(state)?.transitions))?;
-        let vibrissa_runtime::machine::Target::State { state, .. } = &transitions.get(id.index)?.target else {
-            return None;
-        };
+        let Target::State { state, .. } = &transitions.get(id.index)?.target else { return None };
         let inner = |&state: &usize| program.states.get(state)?.initial.as_ref().map(|(inner, _)| *inner);
         std::iter::successors(Some(*state), inner).last()
     }
-}
 
-impl Inspector<'_> {
     /// Ends the records of a tick at a time (s). `state` is the innermost active state, or `None` after the end of the machine.
     pub(super) fn end_tick(&mut self, time_s: f64, state: Option<usize>) {
         for line in &mut self.taken {
@@ -185,7 +193,7 @@ impl Inspector<'_> {
         }
         self.innermost = state.or(self.innermost);
         if let Some(state) = state
-            && let Some(breakpoint) = self.hit(state)
+            && let Some(breakpoint) = self.hit(state, time_s)
         {
             self.stop = Some(self.stopped(breakpoint, time_s, state));
         }
@@ -212,4 +220,11 @@ impl Watcher for Inspector<'_> {
         self.begin_tick();
         if self.stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
+}
+
+/// A state with its outer states, from the outermost to the innermost.
+pub(super) fn from_outside(program: &Program, state: usize) -> Vec<usize> {
+    let mut states: Vec<usize> = program.outward(state).collect();
+    states.reverse();
+    states
 }

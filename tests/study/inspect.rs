@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use vibrissa::diagnostic::Source;
 use vibrissa::inspect::{Breakpoints, Inspector, first_difference};
+use vibrissa::run::TickRecord;
 use vibrissa::scene::WorldKind;
 use vibrissa::trial::{Trial, TrialResult};
 use vibrissa::{built_in, scenario};
@@ -58,8 +59,16 @@ fn a_run_stops_in_the_first_tick_in_which_a_state_is_active_or_a_condition_holds
     let trace = plain("box").run.trace;
     let named = |name: &str| trace.states.iter().position(|state| state == name);
     let first = |wanted: usize| trace.ticks.iter().position(|tick| tick.state == Some(wanted)).unwrap();
-    let bent = trace.ticks.iter().position(|tick| tick.deflections[0].abs() > 100e-6).unwrap();
-    for (place, tick) in [("Meeting", first(named("Meeting").unwrap())), ("|r0.deflection| > 100 urad", bent)] {
+    let is_bent = |tick: &TickRecord| tick.deflections[0].abs() > 100e-6;
+    let bent = trace.ticks.iter().position(is_bent).unwrap();
+    let lasting = 3 + trace.ticks.windows(4).position(|ticks| ticks.iter().all(is_bent)).unwrap();
+    // Four consecutive ticks last 100 ms.
+    let places = [
+        ("Meeting", first(named("Meeting").unwrap())),
+        ("|r0.deflection| > 100 urad", bent),
+        ("|r0.deflection| > 100 urad for 100 ms", lasting),
+    ];
+    for (place, tick) in places {
         let policy = breakpoints(THESIS, &[place]);
         let mut inspector = Inspector::new(&policy, "box");
         assert!(trial("box", &policy).run_watched(&mut inspector).is_err());

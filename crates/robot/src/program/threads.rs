@@ -1,7 +1,8 @@
 //! The threads of the loop.
 
-use std::sync::Arc;
+use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Once};
 use std::thread::JoinHandle;
 
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -174,10 +175,36 @@ impl Threads {
     }
 }
 
+thread_local! {
+    /// The vitals that learn of a panic of this thread.
+    static VITALS: OnceCell<Arc<Vitals>> = const { OnceCell::new() };
+}
+
+/// Notes a panic of a thread before it is printed. The backtrace of a large program takes longer than the supervisor may
+/// need to stop the robot.
+fn note_panics_at_once() {
+    static NOTES: Once = Once::new();
+    NOTES.call_once(|| {
+        let print = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            // A thread that ends has no vitals any more.
+            let _ = VITALS.try_with(|vitals| {
+                if let Some(vitals) = vitals.get() {
+                    vitals.has_panicked.store(true, Ordering::Release);
+                }
+            });
+            print(panic);
+        }));
+    });
+}
+
 /// Starts a thread. A panic in it stops the robot.
 fn thread(common: &Common, name: &str, body: impl FnOnce() + Send + 'static) -> Result<JoinHandle<()>, ThreadError> {
+    note_panics_at_once();
     let vitals = Arc::clone(&common.vitals);
     let guarded = move || {
+        // The thread is new, so the cell is empty.
+        let _ = VITALS.with(|own| own.set(Arc::clone(&vitals)));
         vitals.guard(body);
     };
     Ok(std::thread::Builder::new().name(name.to_owned()).spawn(guarded)?)

@@ -1,9 +1,8 @@
 //! The threads of the program, one of which panics.
 
-use std::io::Write as _;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Once};
 use std::time::{Duration, Instant};
 
 use embedded_hal::i2c::{ErrorType, I2c, Operation};
@@ -115,10 +114,21 @@ impl RecordSink for Events {
     }
 }
 
+/// Set before the first robot of the process starts.
+static SLOW: Once = Once::new();
+
+/// The report of a panic takes as long as a large backtrace, and longer than the packets that are permitted.
+fn print_slowly() {
+    let print = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        std::thread::sleep(Duration::from_millis(500));
+        print(panic);
+    }));
+}
+
 /// Starts a robot, and makes a thread of it panic once it moves. `on_bus` and `on_pose` are called on these threads.
 fn panics(on_bus: &Trigger, on_pose: &Trigger, trigger: &Trigger) {
-    // The default hook may print a backtrace, which takes longer than the packets that are permitted.
-    std::panic::set_hook(Box::new(|panic| drop(writeln!(std::io::stderr(), "{panic}"))));
+    SLOW.call_once(print_slowly);
     let mut config = Config::emulated(Rig::default(), 1.5);
     // No other fault may stop the robot.
     config.timeouts = Timeouts { bus: 1e3, sensor: 1e3, pose: 1e3, control: 1e3, link: 1e3, settle: 1e3 };

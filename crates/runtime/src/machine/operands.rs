@@ -106,16 +106,8 @@ impl Op {
             | Self::JumpUnless { .. }
             | Self::JumpUnlessLess { .. }
             | Self::JumpUnlessBoth { .. }
-            | Self::Jump { .. }
-            | Self::Record { .. }
-            | Self::RecordPosition { .. }
-            | Self::Mark { .. }
-            | Self::SteerBodyFacing { .. }
-            | Self::SteerBodyTurning { .. }
-            | Self::SteerWhiskerFacing { .. }
-            | Self::SteerWhiskerTurning { .. }
-            | Self::Hold
-            | Self::Stop => Effect::SideEffect,
+            | Self::Jump { .. } => Effect::SideEffect,
+            _ if self.is_action() => Effect::SideEffect,
             _ => Effect::Pure,
         }
     }
