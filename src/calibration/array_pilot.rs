@@ -53,7 +53,7 @@ const PATIENCE: f64 = 5.0;
 /// Time until whisker and platform are at rest (s), of a rest in the air, and of the rest that shows the noise of poses.
 const SETTLING: f64 = 0.4;
 const IN_AIR: f64 = 0.3;
-const FIRST_REST: f64 = 6.0;
+const FIRST_REST: f64 = 20.0;
 /// Time of the motions of a touch (s), and the limits of the time of its rest.
 const MOTIONS: f64 = 5.0;
 const RESTS: (f64, f64) = (0.5, 3.0);

@@ -75,7 +75,10 @@ pub fn chart_svg(chart: &Chart) -> Result<String, ChartTooLarge> {
     }
     for route in &layout.routes {
         drawing = drawing.add(line(curve(&route.points)));
-        if let [.., before, tip] = route.points[..] {
+        // The last points may coincide where an arrow ends at a box.
+        if let Some(&tip) = route.points.last()
+            && let Some(before) = route.points.iter().rev().find(|point| (tip.1 - point.1).abs() > 0.5)
+        {
             drawing = drawing.add(arrowhead(tip, (0.0, (tip.1 - before.1).signum())));
         }
     }

@@ -30,10 +30,36 @@ fn stands_clear(picture: &str) {
     }
 }
 
+/// The numbers of the data of a path.
+fn numbers(data: &str) -> Vec<f64> {
+    data.split(|letter: char| letter.is_alphabetic() || letter == ' ').filter_map(|part| part.parse().ok()).collect()
+}
+
+/// The head of an arrow is at the end of its line, and the line comes from behind it.
+fn heads_follow_their_lines(picture: &str) {
+    let paths: Vec<&str> = picture.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let mut heads = 0;
+    for pair in paths.windows(2).filter(|pair| pair[1].ends_with('Z')) {
+        let (line, head) = (numbers(pair[0]), numbers(pair[1]));
+        // The head of a vertical arrow: both ends of its back have one height. The heads of loops are horizontal.
+        let [_, back, x, tip, _, other] = head[..] else { continue };
+        if (back - other).abs() > 0.01 {
+            continue;
+        }
+        heads += 1;
+        assert_eq!(line[line.len() - 2..], [x, tip], "{}", pair[0]);
+        let mut heights = line.iter().skip(1).step_by(2).rev();
+        let before = heights.find(|height| (*height - tip).abs() > 0.5).unwrap();
+        assert!((back - tip).signum() == (before - tip).signum(), "{} has the head {}", pair[0], pair[1]);
+    }
+    assert!(heads > 0);
+}
+
 #[test]
 fn in_a_picture_nothing_hides_anything() {
     for text in [THESIS, HARD, NESTED] {
         stands_clear(&chart_svg(&chart_of(text)).unwrap());
+        heads_follow_their_lines(&chart_svg(&chart_of(text)).unwrap());
     }
 }
 
@@ -58,6 +84,7 @@ proptest! {
     #[test]
     fn in_the_picture_of_any_chart_nothing_hides_anything(chart in charts()) {
         let picture = chart_svg(&chart).unwrap();
+        heads_follow_their_lines(&picture);
         stands_clear(&picture);
         // One arrow for all transitions between two states, and one to each initial state.
         let ends = |transition: &Transition| match &transition.target {

@@ -179,7 +179,7 @@ mod tests {
                 offsets.predict(PERIOD);
                 offsets.measure(0, offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7);
             }
-            prop_assert!((offsets.value(0) - offset).abs() < 4e-7);
+            prop_assert!((offsets.value(0) - offset).abs() < TOLERATED);
         }
 
         #[test]
