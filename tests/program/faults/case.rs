@@ -136,7 +136,7 @@ pub(super) const PARETO: Case = Case {
     prepare: policy,
     arguments: |folder| words("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @/out", folder),
     old,
-    is_long: false,
+    is_long: true,
 };
 
 pub(super) const CALIBRATE: Case = Case {

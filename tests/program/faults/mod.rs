@@ -196,10 +196,12 @@ fn bench_leaves_old_results_or_new_ones() {
 }
 
 #[test]
-#[ignore = "takes ten minutes; `cargo test --release --test program long_commands -- --ignored` runs it"]
+#[ignore = "takes a quarter of an hour; `cargo test --release --test program long_commands -- --ignored` runs it"]
 fn long_commands_leave_old_results_or_new_ones_at_every_call() {
     survives_at(&case::BENCH, usize::MAX);
     survives_at(&CALIBRATE, usize::MAX);
+    #[cfg(feature = "sim")]
+    survives_at(&case::PARETO, usize::MAX);
 }
 
 #[cfg(feature = "sim")]

@@ -36,7 +36,7 @@ fn passage(run: &Run, clear: f64) -> Passage {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig::with_cases(16))]
 
     #[test]
     fn who_goes_along_the_outside_of_a_tunnel_does_not_go_through(clear in 0.18..0.26_f64, off in 0.13..0.3_f64) {
