@@ -21,6 +21,8 @@ pub(super) struct ArrayPilot<'w> {
     ticks: u64,
     /// Standard deviations of the measured position (m, of each coordinate) and heading (rad).
     pub(super) noise: TouchNoise,
+    /// Mean base angles (rad) of the rest at the start.
+    first_base_angles: [f64; MAX_WHISKERS],
 }
 
 /// The mean of the samples of a rest.
@@ -70,10 +72,17 @@ impl<'w> ArrayPilot<'w> {
             body: Pose::UNKNOWN,
             ticks: 0,
             noise: TouchNoise::default(),
+            first_base_angles: [0.0; MAX_WHISKERS],
         };
         let rest = pilot.rest(FIRST_REST, |_| Command::STOP)?;
         (pilot.heading, pilot.noise) = (rest.body.heading, rest.noise);
+        pilot.first_base_angles = rest.base_angles.map(|(mean, _)| mean);
         Ok(pilot)
+    }
+
+    /// Mean base angle (rad) of a whisker in the rest at the start, in the air.
+    pub(super) fn first_base_angle(&self, whisker: usize) -> f64 {
+        self.first_base_angles[whisker]
     }
 
     /// Time since the start (s).

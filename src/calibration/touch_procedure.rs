@@ -179,7 +179,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
         }
         Ok(WhiskerTouches {
             missed: self.missed.len(),
-            first_in_air: self.in_air.first().map_or(0.0, |rest| rest.base_angle(self.index).0),
+            first_in_air: self.pilot.first_base_angle(self.index),
             time: Some(self.pilot.time() - start),
             ..touches
         })

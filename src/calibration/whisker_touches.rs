@@ -18,7 +18,7 @@ pub struct WhiskerTouches {
     pub fit: Result<TouchFit, TouchRefusal>,
     /// Standard deviation of tips (m) that the errors of the fit cause.
     pub tip_deviation: f64,
-    /// The reading in the air before the first touch (rad).
+    /// The reading in the air at the start, before any whisker touches (rad).
     pub first_in_air: f64,
     /// Duration (s). `None` if it is not known.
     pub time: Option<f64>,

@@ -8,7 +8,7 @@ use clap::Args;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use super::run::{RunArguments, finish, reports, show, trials_with_texts};
+use super::run::{RunArguments, TickFile, finish, reports, show, trials_with_texts};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::inspect::{Breakpoints, Inspector};
@@ -42,6 +42,7 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
     let transition_file = options.transitions.as_ref().map(|path| files.output("--transitions", path)).transpose()?;
     let plain: Vec<Trial> = trials.iter().map(|(trial, _)| trial.clone()).collect();
     let reports = reports(&plain, arguments.out.as_deref(), files)?;
+    let mut ticks = TickFile::new(arguments, files)?;
     let (mut results, mut stops, mut lines, mut exit) = (Vec::new(), Vec::new(), String::new(), Exit::Done);
     for ((trial, text), report) in trials.iter().zip(reports) {
         let source = text.as_ref().ok_or_else(|| Failure::NoTextToInspect { name: trial.program.name.clone() })?;
@@ -62,6 +63,7 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
                 if !finished.violations.is_empty() {
                     exit = Exit::Unexpected;
                 }
+                ticks.add(&trial, &finished.run)?;
                 results.push(finish(&trial, &finished, report)?);
             }
         }
@@ -69,6 +71,7 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
     if let Some(file) = transition_file {
         file.write(lines)?;
     }
+    ticks.write()?;
     if !stops.is_empty() {
         output::documents(arguments.format, &stops, || stops.iter().flat_map(stop_tables).collect::<Vec<_>>())?;
     }

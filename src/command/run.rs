@@ -17,10 +17,11 @@ use super::trials::{ReportFiles, extended, inputs, make_directory, report_events
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
-use crate::file::CommandFiles;
+use crate::file::{CommandFiles, Output};
 use crate::load::{self, GivenMismatch, Loaded};
 use crate::report::results_table;
 use crate::results::{RunResult, tick_lines};
+use crate::run::Run;
 use crate::trial::{Inputs, Trial, TrialResult};
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -69,26 +70,47 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     let trials = trials(arguments, &mut files)?;
     let reports = reports(&trials, arguments.out.as_deref(), &mut files)?;
-    let tick_file = arguments.ticks.as_ref().map(|path| files.output("--ticks", path)).transpose()?;
-    let (mut results, mut exit, mut ticks) = (Vec::with_capacity(trials.len()), Exit::Done, String::new());
+    let mut ticks = TickFile::new(arguments, &mut files)?;
+    let (mut results, mut exit) = (Vec::with_capacity(trials.len()), Exit::Done);
     for (trial, report) in trials.iter().zip(reports) {
         let finished = run_with_bar(trial)?;
         let result = finish(trial, &finished, report)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
         }
-        if tick_file.is_some() {
-            for line in tick_lines(&result.scenario, &finished.run.trace, trial.assumed_rig.sensing.friction) {
-                ticks += &output::json_line(&line)?;
-            }
-        }
+        ticks.add(trial, &finished.run)?;
         results.push(result);
     }
-    if let Some(file) = tick_file {
-        file.write(ticks)?;
-    }
+    ticks.write()?;
     show(&results, arguments)?;
     Ok(exit)
+}
+
+/// The file of `--ticks`, if it is wanted.
+pub(super) struct TickFile {
+    file: Option<Output>,
+    lines: String,
+}
+
+impl TickFile {
+    pub(super) fn new(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Self, Failure> {
+        let file = arguments.ticks.as_ref().map(|path| files.output("--ticks", path)).transpose()?;
+        Ok(Self { file, lines: String::new() })
+    }
+
+    /// Adds the ticks of a run.
+    pub(super) fn add(&mut self, trial: &Trial, run: &Run) -> Result<(), Failure> {
+        if self.file.is_some() {
+            for line in tick_lines(&trial.scene.name, &run.trace, trial.assumed_rig.sensing.friction) {
+                self.lines += &output::json_line(&line)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn write(self) -> Result<(), Failure> {
+        Ok(self.file.map_or(Ok(()), |file| file.write(self.lines))?)
+    }
 }
 
 /// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first

@@ -128,8 +128,8 @@ impl ArrayCalibration {
         Ok(self.whiskers.iter().map(WhiskerTouches::calibration).collect::<Result<_, _>>()?)
     }
 
-    /// Gives the whiskers of a rig their calibrations, for runs that begin when the touches began. So the offset is that
-    /// before the first touch.
+    /// Gives the whiskers of a rig their calibrations, for runs that begin when the procedure began. So the offset is that
+    /// of the rest at its start.
     ///
     /// # Errors
     /// [`ArrayCalibrationError::Refused`] with the first whisker that was refused.

@@ -20,10 +20,14 @@ fn a_run_stops_at_a_breakpoint_and_shows_its_guards() {
 
 #[test]
 fn every_transition_is_a_line_of_json() {
-    let file = directory("transitions").join("transitions.jsonl");
-    let path = file.display().to_string();
-    let output = vibrissa(&[&["run"], &BOX[..], &["policies/thesis.fsm", "--transitions", &path]].concat());
+    let folder = directory("transitions");
+    let [file, ticks] = ["transitions.jsonl", "ticks.jsonl"].map(|name| folder.join(name));
+    let [path, tick_path] = [&file, &ticks].map(|file| file.display().to_string());
+    let options = ["policies/thesis.fsm", "--transitions", &path, "--ticks", &tick_path];
+    let output = vibrissa(&[&["run"], &BOX[..], &options].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let ticks = std::fs::read_to_string(ticks).unwrap();
+    assert!(ticks.lines().count() > 1000 && ticks.lines().all(|line| line.contains(r#""format":"tick""#)));
     let lines = std::fs::read_to_string(file).unwrap();
     let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert!(lines.len() > 20 && lines.iter().all(|line| line["format"] == "transition"));
