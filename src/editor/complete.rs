@@ -49,7 +49,7 @@ fn kind(kind: CandidateKind) -> CompletionItemKind {
         CandidateKind::Symbol(SymbolKind::Enumeration) => CompletionItemKind::Enum,
         CandidateKind::Symbol(SymbolKind::Choice) => CompletionItemKind::EnumMember,
         CandidateKind::Symbol(SymbolKind::State) => CompletionItemKind::Class,
-        CandidateKind::Symbol(SymbolKind::Exit) => CompletionItemKind::Event,
+        CandidateKind::Symbol(SymbolKind::Exit | SymbolKind::Event) => CompletionItemKind::Event,
         CandidateKind::Symbol(SymbolKind::Law) => CompletionItemKind::Method,
         CandidateKind::Symbol(SymbolKind::Parameter | SymbolKind::Machine) => CompletionItemKind::Constant,
         CandidateKind::Symbol(SymbolKind::Memory) => CompletionItemKind::Property,

@@ -93,7 +93,7 @@ fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
         SymbolKind::State => LspSymbolKind::Class,
         SymbolKind::Behaviour => LspSymbolKind::Module,
         SymbolKind::Monitor => LspSymbolKind::Object,
-        SymbolKind::Exit => LspSymbolKind::Event,
+        SymbolKind::Exit | SymbolKind::Event => LspSymbolKind::Event,
         SymbolKind::Memory => LspSymbolKind::Property,
         SymbolKind::Machine | SymbolKind::Argument | SymbolKind::Local => return None,
     })

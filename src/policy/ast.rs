@@ -193,7 +193,7 @@ pub(super) struct Derived {
     pub(super) value: Expression,
 }
 
-/// `law name(arguments) { … }`
+/// `law name(arguments) { … }`, or an event of a monitor with the same braces
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Law {
     pub(super) name: Name,
@@ -252,6 +252,8 @@ pub(super) struct Monitor {
     /// `var name = value`
     pub(super) memory: Vec<(Name, Expression)>,
     pub(super) body: Vec<Statement>,
+    /// `on name(arguments) { … }`
+    pub(super) events: Vec<Law>,
     /// The monitor after `is`, with the values of its arguments.
     pub(super) used: Option<Step>,
 }
@@ -378,6 +380,13 @@ pub(super) enum Statement {
         whisker: Expression,
     },
     Steer(Box<Steer>),
+    /// `tell monitor.event(values)`
+    Tell {
+        monitor: Name,
+        event: Name,
+        values: Vec<Expression>,
+        span: Span,
+    },
     Hold(Span),
     Stop(Span),
 }

@@ -95,11 +95,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
                 arguments: arguments(&mut reader)?,
                 value: reader.expression()?,
             }),
-            Rule::law => file.laws.push(Law {
-                name: reader.name()?,
-                arguments: arguments(&mut reader)?,
-                body: block(reader.take(Rule::block)?)?,
-            }),
+            Rule::law => file.laws.push(law(&mut reader)?),
             Rule::state => state(&mut reader, None, &mut file.states)?,
             Rule::monitor => file.monitors.push(monitor(&mut reader)?),
             Rule::behaviour => file.behaviours.push(behaviour(item)?),
@@ -273,6 +269,12 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
                 Statement::Record(recorded)
             }
         }
+        Rule::tell => Statement::Tell {
+            monitor: reader.name()?,
+            event: reader.name()?,
+            values: reader.values()?.unwrap_or_default(),
+            span,
+        },
         Rule::mark => Statement::Mark { name: reader.name()?, whisker: reader.expression()? },
         Rule::steer => {
             let mut mover = Reader::new(reader.take(Rule::mover)?);
@@ -289,6 +291,11 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
         Rule::stop => Statement::Stop(span),
         _ => return Err(internal(span)),
     })
+}
+
+/// A law, or an event of a monitor.
+fn law(reader: &mut Reader<'_>) -> Parsed<Law> {
+    Ok(Law { name: reader.name()?, arguments: arguments(reader)?, body: block(reader.take(Rule::block)?)? })
 }
 
 fn named(pair: Pair<'_>) -> Name {

@@ -154,6 +154,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_monitor
             | Rule::kw_is
             | Rule::on_word
+            | Rule::tell_word
             | Rule::kw_entry
             | Rule::kw_exit
             | Rule::kw_test

@@ -46,8 +46,8 @@ const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", 
 const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
 /// Keywords that begin other parts of a state.
 const PART_WORDS: [&str; 6] = ["let", "when", "after", "entry", "exit", "failsafe"];
-/// A word that begins another part of a state at the beginning of a line, and is a name anywhere else.
-const CONTEXTUAL_PART_WORD: &str = "on";
+/// Words that begin another part of a state at the beginning of a line, and are names anywhere else.
+const CONTEXTUAL_PART_WORDS: [&str; 2] = ["on", "tell"];
 
 /// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]
@@ -292,7 +292,7 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
                 && is_begin
                 && (STATEMENT_WORDS.contains(&word)
                     || PART_WORDS.contains(&word)
-                    || word == CONTEXTUAL_PART_WORD && token.indent.is_some())
+                    || CONTEXTUAL_PART_WORDS.contains(&word) && token.indent.is_some())
                 && (parentheses == 0 || token.indent.is_some()) =>
             {
                 starts.push(start + token.start);

@@ -1,15 +1,23 @@
-//! The standard library: laws and derived values that are built into the program.
+//! The standard library: laws, derived values, behaviours and monitors that are built into the program.
 
 /// The prefix of the modules' names.
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 7] = [
+pub(super) const MODULES: [(&str, &str); 15] = [
+    ("convexity", include_str!("../../policies/std/convexity.fsm")),
+    ("corridor", include_str!("../../policies/std/corridor.fsm")),
+    ("explore", include_str!("../../policies/std/explore.fsm")),
     ("feelers", include_str!("../../policies/std/feelers.fsm")),
+    ("first_contact", include_str!("../../policies/std/first_contact.fsm")),
+    ("following", include_str!("../../policies/std/following.fsm")),
     ("guards", include_str!("../../policies/std/guards.fsm")),
     ("mounting", include_str!("../../policies/std/mounting.fsm")),
+    ("obstacle", include_str!("../../policies/std/obstacle.fsm")),
     ("platform", include_str!("../../policies/std/platform.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
+    ("senses", include_str!("../../policies/std/senses.fsm")),
+    ("sweep", include_str!("../../policies/std/sweep.fsm")),
     ("swipe", include_str!("../../policies/std/swipe.fsm")),
     ("tunnel", include_str!("../../policies/std/tunnel.fsm")),
 ];

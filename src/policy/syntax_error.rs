@@ -212,7 +212,7 @@ fn statement(name: &str, behind: &str) -> Option<String> {
 
 /// True if a word begins a statement.
 fn begins_statement(word: &str) -> bool {
-    ["do", "hold", "if", "let", "mark", "record", "set", "steer", "stop"].contains(&word)
+    ["do", "hold", "if", "let", "mark", "record", "set", "steer", "stop", "tell"].contains(&word)
 }
 
 /// True if a text ends with a number and a tab.
@@ -323,6 +323,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_monitor => "monitor",
         Rule::kw_is => "is",
         Rule::on_word => "on",
+        Rule::tell_word => "tell",
         Rule::kw_always => "always",
         Rule::kw_test => "test",
         Rule::kw_property => "property",

@@ -24,8 +24,8 @@ pub(super) enum Type {
     Body,
     /// A whole run, in a test.
     Run,
-    /// The monitor with this index.
-    Monitor(usize),
+    /// A monitor with a content, by the span of its name. Its index is in place of a register.
+    Monitor(Span),
 }
 
 /// An enumeration.

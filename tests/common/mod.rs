@@ -154,7 +154,12 @@ pub fn program(text: &str) -> Program {
 
 /// Runs a policy over a script, and gives the machine and, for every tick, the state it ended in and its action.
 pub fn run(text: &str, script: &mut Script) -> (Machine, Vec<(String, Action)>) {
-    let mut machine = Machine::new(Arc::new(program(text)));
+    run_program(program(text), script)
+}
+
+/// The same for a compiled policy.
+pub fn run_program(program: Program, script: &mut Script) -> (Machine, Vec<(String, Action)>) {
+    let mut machine = Machine::new(Arc::new(program));
     let mut ticks = Vec::new();
     for now in 0..script.ticks.len() {
         script.now = now;

@@ -31,6 +31,11 @@ impl<'a> Names<'a> {
         self.given.extend(names.into_iter().map(|name| name.text.as_str()));
     }
 
+    /// Records the types of arguments.
+    pub(super) fn types(&mut self, arguments: &'a [Argument]) {
+        self.used.extend(arguments.iter().map(|argument| argument.type_name.base.text.as_str()));
+    }
+
     /// Adds the used names of an inner part, except those that it declares.
     pub(super) fn extend(&mut self, within: &Self) {
         self.used.extend(within.used.difference(&within.given));
@@ -104,6 +109,10 @@ impl<'a> Names<'a> {
                 // A contour that is only recorded is not used.
                 Statement::RecordPosition { position, .. } => self.expression(position),
                 Statement::Record(whisker) | Statement::Mark { whisker, .. } => self.expression(whisker),
+                Statement::Tell { monitor, values, .. } => {
+                    self.used.insert(&monitor.text);
+                    self.expressions(values);
+                }
                 Statement::Steer(steer) => {
                     self.expressions(&steer.whisker);
                     self.expression(&steer.along);

@@ -19,6 +19,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
             warnings.push(never_used("P0507", "argument", &argument.name, hint));
         }
         used_by_defaults.extend(&defaults);
+        used_by_defaults.types(arguments);
     };
     for derived in &file.derived {
         let mut names = Names::of(|names| names.expression(&derived.value));
@@ -38,6 +39,11 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
             monitor.memory.iter().for_each(|(_, value)| names.expression(value));
             names.statements(&monitor.body);
         });
+        for event in &monitor.events {
+            let mut of_event = Names::of(|names| names.statements(&event.body));
+            part(&mut of_event, &event.arguments, &event.name.text);
+            names.extend(&of_event);
+        }
         part(&mut names, &monitor.arguments, &monitor.name.text);
         // Others read the memory.
         names.give(monitor.memory.iter().map(|(name, _)| name));

@@ -81,7 +81,7 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
 }
 
 /// Length of a keyword at the beginning of `text` that is a name anywhere else: `contour` before a name or `of`,
-/// `points` after a number behind `of`, `apart` after a unit, and `on` before a name.
+/// `points` after a number behind `of`, `apart` after a unit, and `on` and `tell` before a name.
 fn contextual_word(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
     let word = text.split(|letter| !is_word(letter)).next().unwrap_or_default();
     let mut before = tokens.iter().rev().filter(|token| token.kind != Kind::Comment);
@@ -94,7 +94,7 @@ fn contextual_word(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
         ("points", Some(last)) => {
             last.kind == Kind::Number && before.next().is_some_and(|of| of.kind == Kind::Keyword && of.text == "of")
         }
-        ("on", Some(last)) if !last.is(".") && !last.is(":") => {
+        ("on" | "tell", Some(last)) if !last.is(".") && !last.is(":") => {
             let next = text[word.len()..].trim_start().split(|letter| !is_word(letter)).next().unwrap_or_default();
             next.starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && !is_keyword(next)
         }

@@ -59,17 +59,20 @@ fn is_content(symbol: &Symbol) -> bool {
     matches!(symbol.kind, SymbolKind::Behaviour | SymbolKind::Monitor)
 }
 
-/// The state with a name in the behaviour that the state `outer` uses, or the memory of a monitor. `None` for a state that
-/// uses no behaviour.
+/// The state with a name in the behaviour that the state `outer` uses, or the memory or the event of a monitor. `None` for a
+/// state that uses no behaviour.
 pub(super) fn inner(symbols: &[Symbol], all: &HashMap<usize, usize>, outer: usize, name: &str) -> Option<usize> {
     let used = all.get(&outer).copied();
-    if symbols[outer].kind != SymbolKind::Monitor {
+    if symbols[outer].kind == SymbolKind::State {
         return inside(symbols, used?, SymbolKind::State, name);
     }
     let content = used.unwrap_or(outer);
-    let is_meant =
-        |symbol: &Symbol| symbol.kind == SymbolKind::Memory && symbol.owner == Some(content) && symbol.name == name;
-    symbols.iter().position(is_meant)
+    symbols.iter().position(|symbol| is_part(symbol, content) && symbol.name == name)
+}
+
+/// True if a symbol is the memory or an event of a monitor.
+pub(super) fn is_part(symbol: &Symbol, monitor: usize) -> bool {
+    matches!(symbol.kind, SymbolKind::Memory | SymbolKind::Event) && symbol.owner == Some(monitor)
 }
 
 /// The symbol of a kind and a name in a behaviour.

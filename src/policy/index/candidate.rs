@@ -11,6 +11,7 @@ use crate::policy::types::{DIMENSIONS, Type};
 use crate::policy::unit::units_of;
 use vibrissa_runtime::units::Dimension;
 
+use super::applied::is_part;
 use super::context::{Context, Expected, Level, context};
 use super::import::{exports, heading};
 use super::keyword::{Keyword, Position, keyword, keywords_at};
@@ -88,11 +89,12 @@ impl Index {
             Expected::Member(dot) => match self.resolved.owners.get(&dot) {
                 Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
                 Some(&Owner::Value(owner)) => members(owner).collect(),
-                Some(&Owner::State(monitor)) if self.symbols[monitor].kind == SymbolKind::Monitor => {
+                Some(&Owner::State(monitor)) if self.symbols[monitor].kind != SymbolKind::State => {
                     let content = self.resolved.behaviours.get(&monitor).copied().unwrap_or(monitor);
-                    let is_memory =
-                        |symbol: &&Symbol| symbol.kind == SymbolKind::Memory && symbol.owner == Some(content);
-                    self.symbols.iter().filter(is_memory).map(|symbol| self.symbol(symbol)).collect()
+                    let is_wanted = |symbol: &&Symbol| {
+                        is_part(symbol, content) && (symbol.kind == SymbolKind::Event) == context.tells
+                    };
+                    self.symbols.iter().filter(is_wanted).map(|symbol| self.symbol(symbol)).collect()
                 }
                 Some(&Owner::State(outer)) => self.inner_states(outer),
                 Some(&Owner::Enumeration(owner)) => {

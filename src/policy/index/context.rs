@@ -94,6 +94,8 @@ pub(super) struct Context {
     pub(super) in_behaviour: bool,
     /// True in a transition. Names of the state's statements are not visible there.
     pub(super) in_transition: bool,
+    /// True in a statement that tells a monitor an event.
+    pub(super) tells: bool,
     /// Memory that is declared from this byte on is not visible.
     ///
     /// For laws and derived values this excludes all memory. For a `var` of the machine it excludes memory below it.
@@ -112,6 +114,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         state: None,
         statement: None,
         in_transition: false,
+        tells: false,
         in_behaviour: false,
         memory_end: 0,
     };
@@ -147,6 +150,7 @@ pub(super) fn context(text: &str, at: usize) -> Context {
         statement: statement.first().map(|token| token.start),
         in_transition: matches!(head, Some("when" | "after" | "on" | "failsafe" | "initial" | "var")),
         in_behaviour: outermost == Some("behaviour"),
+        tells: head == Some("tell"),
         memory_end: match outermost {
             Some("law" | "let") => 0,
             Some("var") => at,
@@ -228,6 +232,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         | "exit" | "test" | "property" | "behaviour" | "monitor" => Expected::Nothing,
         "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,
+        "tell" => Expected::Monitor,
         "is" => Expected::Behaviour,
         "on" => Expected::Connected,
         "do" => Expected::Law,

@@ -132,12 +132,14 @@ impl<'t> Declared<'t> {
             "behaviour" => SymbolKind::Behaviour,
             "monitor" => SymbolKind::Monitor,
             "exit" => SymbolKind::Exit,
-            // The names of an exit's values.
+            // An event of a monitor, or the names of an exit's values.
             "on" => {
-                if let Some(owner) = self.frames.last().and_then(|frame| frame.owner) {
-                    self.received(tokens, index + 2, owner);
+                let owner = self.frames.last().and_then(|frame| frame.owner);
+                match owner {
+                    Some(owner) if self.symbols[owner].kind == SymbolKind::Monitor => SymbolKind::Event,
+                    Some(owner) => return self.received(tokens, index + 2, owner),
+                    None => return,
                 }
-                return;
             }
             "var" => SymbolKind::Memory,
             "whisker" => SymbolKind::Whisker,
@@ -155,6 +157,7 @@ impl<'t> Declared<'t> {
                 | SymbolKind::Behaviour
                 | SymbolKind::Monitor
                 | SymbolKind::Exit
+                | SymbolKind::Event
                 | SymbolKind::Derived => self.arguments(tokens, name + 1, declared),
                 SymbolKind::Parameter => self.symbols[declared].r#type = parameter_type(&tokens[name..]),
                 SymbolKind::Enumeration => self.choices(tokens, name + 1, declared),

@@ -107,8 +107,8 @@ pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<S
 
 /// True if a symbol is known only together with its owner.
 fn is_part(symbol: &Symbol) -> bool {
-    use SymbolKind::{Argument, Choice, Exit, Memory, State};
-    matches!(symbol.kind, Choice | Argument | State | Exit | Memory)
+    use SymbolKind::{Argument, Choice, Event, Exit, Memory, State};
+    matches!(symbol.kind, Choice | Argument | State | Exit | Event | Memory)
 }
 
 /// True if other files can use a symbol of a file.

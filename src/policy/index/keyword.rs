@@ -89,7 +89,7 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 72] = [
+pub(super) const KEYWORDS: [Keyword; 73] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -243,7 +243,13 @@ pub(super) const KEYWORDS: [Keyword; 72] = [
         "on",
         STATE,
         "on ${1:exit} -> ${2:Target}",
-        "The target of an exit of the behaviour that the state uses. Names in parentheses are those of the exit's values.",
+        "The target of an exit of the behaviour that the state uses. Names in parentheses are those of the exit's values. In a monitor, an event: the statements in braces are executed when a statement tells it.",
+    ),
+    entry(
+        "tell",
+        STATEMENT,
+        "tell ${1:monitor}.${2:event}",
+        "Executes the statements of an event of a monitor at once. Values in parentheses are those of its arguments.",
     ),
     entry(
         "set",

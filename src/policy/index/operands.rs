@@ -11,7 +11,7 @@ use super::symbol::{Meaning, Symbol, SymbolKind};
 pub(super) enum Owner {
     /// A value of this type.
     Value(Type),
-    /// This symbol, a state or a monitor.
+    /// This symbol, a state, a monitor or an argument that is a monitor.
     State(usize),
     /// This symbol, an enumeration.
     Enumeration(usize),

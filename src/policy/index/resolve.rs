@@ -23,7 +23,8 @@ pub(super) struct Resolved {
     pub(super) uses: Vec<Use>,
     /// The owner before each `.`, if it is known, by the byte of the `.`.
     pub(super) owners: HashMap<usize, Owner>,
-    /// The behaviour of each state that uses one, and the content of each monitor that uses another.
+    /// The behaviour of each state that uses one, and the content of each monitor that uses another and of each argument
+    /// that is a monitor.
     pub(super) behaviours: HashMap<usize, usize>,
 }
 
@@ -58,7 +59,11 @@ pub(super) fn resolve(
                 let named = type_name(tokens, index);
                 type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
                 let built_in = named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type);
-                built_in.or_else(|| names.enumeration(token.text).map(|index| Meaning::Symbol(index, Role::Reads)))
+                let own = names.own_type(token.text).filter(|_| built_in.is_none());
+                let argument =
+                    index.checked_sub(2).and_then(|name| names.declared.get(&span_of(tokens[name])).copied());
+                resolved.behaviours.extend(argument.zip(own.filter(|&own| symbols[own].kind == SymbolKind::Monitor)));
+                built_in.or_else(|| own.map(|index| Meaning::Symbol(index, Role::Reads)))
             }
             TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
             TokenKind::Name if is_before("mark") || is_before("needs") => {
@@ -97,7 +102,15 @@ pub(super) fn resolve(
                 let is_declared = symbols[argument].span == span_of(*token);
                 Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
             }
-            TokenKind::Name if is_before("on") => applied.exit(symbols, token.text),
+            TokenKind::Name if is_before("exit") && index > 1 && tokens[index - 2].is("->") => {
+                names.of_kind(token.text, SymbolKind::Exit).map(|exit| Meaning::Symbol(exit, Role::Reads))
+            }
+            TokenKind::Name if is_before("on") => match names.declared.get(&span_of(*token)) {
+                Some(&event) if symbols[event].kind == SymbolKind::Event => {
+                    Some(Meaning::Symbol(event, Role::Declares))
+                }
+                _ => applied.exit(symbols, token.text),
+            },
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(span_of(*token), token.text, role)
@@ -116,6 +129,12 @@ pub(super) fn resolve(
             resolved.owners.extend(operands.last.map(|owner| (token.start, owner)));
         }
         operands.advance(before, *token, meaning);
+        if let Some(Meaning::Symbol(argument, _)) = meaning
+            && symbols[argument].kind == SymbolKind::Argument
+            && resolved.behaviours.contains_key(&argument)
+        {
+            operands.last = Some(Owner::State(argument));
+        }
         if is_word || token.kind == TokenKind::Unit {
             resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
@@ -171,8 +190,9 @@ struct Names<'s> {
 
 impl<'s> Names<'s> {
     fn new(symbols: &'s [Symbol]) -> Self {
-        // The machine's name cannot be referred to, and a value of an enumeration only as its member.
-        let is_unknown_alone = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Machine | SymbolKind::Choice);
+        // The machine's name cannot be referred to. A value of an enumeration and an event are members.
+        let is_unknown_alone =
+            |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Machine | SymbolKind::Choice | SymbolKind::Event);
         let mut order: Vec<usize> = (0..symbols.len()).filter(|&index| !is_unknown_alone(&symbols[index])).collect();
         order.sort_by_key(|&index| symbols[index].visible.start);
         let declared = symbols.iter().enumerate().map(|(index, symbol)| (symbol.span, index)).collect();
@@ -203,7 +223,9 @@ impl<'s> Names<'s> {
             while known.last().is_some_and(|&index| self.symbols[index].visible.end <= span.start) {
                 known.pop();
             }
-            if let Some(&index) = known.last() {
+            // An exit may have the name of a value.
+            let is_value = |&&index: &&usize| self.symbols[index].kind != SymbolKind::Exit;
+            if let Some(&index) = known.iter().rev().find(is_value) {
                 return Some(Meaning::Symbol(index, role));
             }
         }
@@ -215,6 +237,11 @@ impl<'s> Names<'s> {
 
     fn state(&self, name: &str) -> Option<usize> {
         self.of_kind(name, SymbolKind::State)
+    }
+
+    /// The enumeration or the monitor with a name, as the type of an argument.
+    fn own_type(&self, name: &str) -> Option<usize> {
+        self.enumeration(name).or_else(|| self.of_kind(name, SymbolKind::Monitor))
     }
 
     fn enumeration(&self, name: &str) -> Option<usize> {

@@ -33,6 +33,8 @@ pub enum SymbolKind {
     Monitor,
     /// An exit of a behaviour.
     Exit,
+    /// An event of a monitor.
+    Event,
     /// An argument of a law, a derived value or a state.
     Argument,
     /// A named value of a statement.
@@ -44,14 +46,21 @@ pub enum SymbolKind {
 impl SymbolKind {
     /// True if the whole policy knows the name.
     pub(super) fn is_item(self) -> bool {
-        !matches!(self, Self::Argument | Self::Local | Self::Memory | Self::Choice | Self::Exit)
+        !matches!(self, Self::Argument | Self::Local | Self::Memory | Self::Choice | Self::Exit | Self::Event)
     }
 
     /// True if the name means a value.
     pub(super) fn is_value(self) -> bool {
         !matches!(
             self,
-            Self::Machine | Self::Law | Self::State | Self::Enumeration | Self::Choice | Self::Behaviour | Self::Exit
+            Self::Machine
+                | Self::Law
+                | Self::State
+                | Self::Enumeration
+                | Self::Choice
+                | Self::Behaviour
+                | Self::Exit
+                | Self::Event
         )
     }
 }

@@ -57,16 +57,22 @@ impl<'f> Compiler<'f> {
     pub(super) fn named_type(&self, name: &TypeName) -> Option<Type> {
         let is_plain = name.of.is_none() && name.factors.is_empty();
         let own = || self.names().enumerations.get(name.base.text.as_str()).filter(|_| is_plain);
-        Type::named(name).or_else(|| own().map(|item| item.r#type()))
+        let monitor = || self.names().monitors.get(name.base.text.as_str()).filter(|_| is_plain);
+        Type::named(name)
+            .or_else(|| own().map(|item| item.r#type()))
+            .or_else(|| monitor().map(|(_, content)| Type::Monitor(content.name.span)))
     }
 
     /// A type in messages.
     pub(super) fn phrase(&self, r#type: Type) -> String {
-        let item = match r#type {
-            Type::Choice(choices) => self.enumerations.get(&choices.declared),
+        let name = match r#type {
+            Type::Choice(choices) => self.enumerations.get(&choices.declared).map(|item| &item.name),
+            Type::Monitor(content) => {
+                self.running.iter().map(|running| &running.content.name).find(|name| name.span == content)
+            }
             _ => None,
         };
-        item.map_or_else(|| r#type.to_string(), |item| format!("a `{}`", item.name.text))
+        name.map_or_else(|| r#type.to_string(), |name| format!("a `{}`", name.text))
     }
 
     /// The names of the values of all enumerations, by the span of the declaration.

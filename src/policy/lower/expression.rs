@@ -201,12 +201,12 @@ impl<'f> Compiler<'f> {
             return self.choice_value(item, name);
         }
         let value = self.expression(scope, owner)?;
-        if let Type::Monitor(monitor) = value.r#type {
+        if let Type::Monitor(_) = value.r#type {
             if values.is_some() {
                 self.report_call(format!("`{}` takes no values", name.text), name.span);
                 return None;
             }
-            return self.monitor_member(monitor, name);
+            return self.monitor_member(value, name);
         }
         let members = builtins::members(value.r#type);
         let Some(&member) = members.iter().find(|member| member.name == name.text) else {
@@ -300,7 +300,7 @@ impl<'f> Compiler<'f> {
             });
             return None;
         }
-        if let Type::Body | Type::Run = r#type {
+        if let Type::Body | Type::Run | Type::Monitor(_) = r#type {
             return self.mismatch(sides[0].span, r#type, "an `if` chooses between values");
         }
         let width = r#type.width();

@@ -12,6 +12,8 @@ impl<'f> Compiler<'f> {
     /// Returns the names that all states know, and both codes.
     pub(super) fn own_memory(&mut self, file: &'f File) -> (Scope<'f>, Block, Block) {
         let mut scope = Scope::default();
+        // Those of parts that were checked alone end with these.
+        self.running.clear();
         let start = self.code.here();
         let mut monitors = file.monitors.iter().peekable();
         for (name, value) in &file.memory {

@@ -93,7 +93,9 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
     let diagnostics = in_order(compiler.diagnostics);
     match program {
         Some(program) if diagnostics.is_empty() => {
-            let known = |(name, meaning): (String, Meaning)| meaning.map(|value| (name, value));
+            // A monitor that is an argument has no register.
+            let has_register = |value: &Value| !matches!(value.r#type, Type::Monitor(_));
+            let known = |(name, meaning): (String, Meaning)| Some((name, meaning.filter(has_register)?));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
             let (memory, origins) = (compiler.memory, compiler.code.origins);
             Ok(Lowered { program, tests, arguments: arguments.collect(), choices, memory, origins })
@@ -165,8 +167,10 @@ struct Compiler<'f> {
     declaring: &'f [(Name, Expression)],
     /// The memory of the machine, of the current state and of its outer states.
     variables: Vec<&'f Name>,
-    /// The monitors of the machine.
+    /// The monitors of the machine, or unknown ones of a part that is checked alone.
     running: Vec<Running<'f>>,
+    /// The names of the machine: its memory and its monitors.
+    own_names: Scope<'f>,
     /// Memory of stateful functions in the current state: the first register, and the number of registers.
     memories: Vec<(Register, u16)>,
     /// The figures that the current expectation reads. `None` outside of tests.
@@ -202,6 +206,7 @@ impl<'f> Compiler<'f> {
             declaring: &[],
             variables: Vec::new(),
             running: Vec::new(),
+            own_names: Scope::default(),
             memories: Vec::new(),
             figures: None,
             tests: Vec::new(),
@@ -261,9 +266,9 @@ impl<'f> Compiler<'f> {
     /// Adds `arguments` with unknown values to a scope. They may hide its first `hidable` names.
     fn bind_arguments(&mut self, scope: &mut Scope<'f>, hidable: usize, arguments: &'f [Argument]) {
         for argument in arguments {
-            let meaning = self.type_of(&argument.type_name).map(|r#type| {
-                let register = self.code.allocate(r#type.width());
-                Value { r#type, register }
+            let meaning = self.type_of(&argument.type_name).and_then(|r#type| match r#type {
+                Type::Monitor(content) => self.unknown_monitor(content),
+                _ => Some(Value { r#type, register: self.code.allocate(r#type.width()) }),
             });
             self.bind(scope, hidable, &argument.name, meaning);
         }
@@ -273,7 +278,8 @@ impl<'f> Compiler<'f> {
     fn type_of(&mut self, name: &TypeName) -> Option<Type> {
         let found = self.named_type(name);
         if found.is_none() {
-            let own: Vec<&str> = self.names().enumerations.keys().copied().collect();
+            let own: Vec<&str> =
+                self.names().enumerations.keys().chain(self.names().monitors.keys()).copied().collect();
             let diagnostic = unknown_type(name, &own);
             self.report(diagnostic);
         }

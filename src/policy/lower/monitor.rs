@@ -1,24 +1,31 @@
 //! Monitors: memory with statements that run first in every tick.
 
-use crate::diagnostic::Diagnostic;
-use crate::policy::ast::{Expression, File, Monitor, Name, Step};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::policy::ast::{Argument, Expression, File, Monitor, Name, State, Statement, Step};
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
 
+use super::call::Callee;
 use super::scope::{Meaning, Scope};
 use super::{Commandless, Compiler};
 
-/// A monitor that runs.
+/// A monitor that runs, or an unknown one that a part of a policy takes as an argument and that is checked alone.
 pub(super) struct Running<'f> {
     /// The file that declares its content, and its content.
     file: usize,
-    content: &'f Monitor,
-    values: &'f [Expression],
-    /// Its own declaration, and the number of names that precede it.
-    declared: &'f Monitor,
-    above: usize,
+    pub(super) content: &'f Monitor,
+    origin: Origin<'f>,
     /// Its memory.
     pub(super) memory: Vec<(&'f Name, Meaning)>,
+}
+
+/// Where the values of a monitor's arguments come from.
+#[derive(Clone)]
+enum Origin<'f> {
+    /// The values in its own declaration, which know so many names of the machine.
+    Declared { declared: &'f Monitor, values: &'f [Expression], above: usize },
+    /// The arguments, with unknown values.
+    Unknown(Scope<'f>),
 }
 
 impl<'f> Compiler<'f> {
@@ -28,17 +35,13 @@ impl<'f> Compiler<'f> {
         if declared.used.is_none() && !declared.arguments.is_empty() {
             return;
         }
-        let running = self.running(scope, declared);
-        let meaning = running.map(|running| {
-            self.running.push(running);
-            Value { r#type: Type::Monitor(self.running.len() - 1), register: 0 }
-        });
+        let meaning = self.start_declared(scope, declared);
         self.memories.clear();
         self.check_size(declared.name.span);
         scope.insert(&declared.name, meaning);
     }
 
-    fn running(&mut self, scope: &Scope<'f>, declared: &'f Monitor) -> Option<Running<'f>> {
+    fn start_declared(&mut self, scope: &Scope<'f>, declared: &'f Monitor) -> Meaning {
         let (file, content, values) = match &declared.used {
             None => (self.current_file, declared, [].as_slice()),
             Some(Step { name, values, .. }) => {
@@ -52,17 +55,48 @@ impl<'f> Compiler<'f> {
                 (file, content, values.as_slice())
             }
         };
-        let mut running = Running { file, content, values, declared, above: scope.len(), memory: Vec::new() };
-        let mut inner = self.monitor_arguments(scope, &running)?;
-        self.within(file, |compiler| compiler.monitor_memory(&mut inner, content));
-        running.memory = content.memory.iter().map(|(name, _)| (name, inner.get(&name.text).flatten())).collect();
-        Some(running)
+        let origin = Origin::Declared { declared, values, above: scope.len() };
+        let inner = self.monitor_arguments(scope, file, content, &origin)?;
+        Some(self.start(file, content, origin, inner))
     }
 
-    fn monitor_arguments(&mut self, scope: &Scope<'f>, running: &Running<'f>) -> Option<Scope<'f>> {
-        let Running { file, content, values, declared, .. } = running;
-        let span = declared.used.as_ref().map_or(declared.name.span, |step| step.span);
-        self.arguments(scope, *file, &content.name, &content.arguments, values, span)
+    /// A monitor with unknown arguments and memory. `None` if no file declares its content.
+    pub(super) fn unknown_monitor(&mut self, content: Span) -> Meaning {
+        let mut known = self.files.iter().flat_map(|names| names.monitors.values());
+        let &(file, content) = known.find(|(_, known)| known.name.span == content)?;
+        let faults = self.diagnostics.len();
+        let inner = self.within(file, |compiler| compiler.scope_of_arguments(&content.arguments));
+        let value = self.start(file, content, Origin::Unknown(inner.clone()), inner);
+        // Errors of the content are reported where it is declared.
+        self.diagnostics.truncate(faults);
+        Some(value)
+    }
+
+    fn start(&mut self, file: usize, content: &'f Monitor, origin: Origin<'f>, mut inner: Scope<'f>) -> Value {
+        self.within(file, |compiler| compiler.monitor_memory(&mut inner, content));
+        let memory = content.memory.iter().map(|(name, _)| (name, inner.get(&name.text).flatten())).collect();
+        let register = u16::try_from(self.running.len()).unwrap_or(u16::MAX);
+        self.running.push(Running { file, content, origin, memory });
+        Value { r#type: Type::Monitor(content.name.span), register }
+    }
+
+    /// The arguments of a monitor. `scope` has the names of the machine.
+    fn monitor_arguments(
+        &mut self,
+        scope: &Scope<'f>,
+        file: usize,
+        content: &'f Monitor,
+        origin: &Origin<'f>,
+    ) -> Option<Scope<'f>> {
+        match origin {
+            Origin::Unknown(arguments) => Some(arguments.clone()),
+            Origin::Declared { declared, values, above } => {
+                let mut above_it = scope.clone();
+                above_it.truncate(*above);
+                let span = declared.used.as_ref().map_or(declared.name.span, |step| step.span);
+                self.arguments(&above_it, file, &content.name, &content.arguments, values, span)
+            }
+        }
     }
 
     /// Lowers the initial values of a monitor's memory.
@@ -79,29 +113,40 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the statements of all monitors. `scope` has the names of the machine.
     pub(super) fn monitor_bodies(&mut self, scope: &Scope<'f>) {
-        for running in std::mem::take(&mut self.running) {
-            let mut above = scope.clone();
-            above.truncate(running.above);
-            if let Some(mut inner) = self.monitor_arguments(&above, &running) {
-                running.memory.iter().for_each(|&(name, memory)| inner.insert(name, memory));
-                self.within(running.file, |compiler| compiler.monitor_body(&mut inner, running.content));
+        self.own_names = scope.clone();
+        for index in 0..self.running.len() {
+            let Some((inner, content, file)) = self.inside(index) else { continue };
+            self.within(file, |compiler| compiler.monitor_statements(inner, content, &content.body));
+            if let Some(Running { origin: Origin::Declared { declared, .. }, .. }) = self.running.get(index) {
+                self.check_size(declared.name.span);
             }
-            self.check_size(running.declared.name.span);
-            self.running.push(running);
         }
         self.memories.clear();
     }
 
-    fn monitor_body(&mut self, scope: &mut Scope<'f>, monitor: &'f Monitor) {
+    /// The names inside of a monitor: its arguments and its memory. Also its content and the file of that.
+    fn inside(&mut self, index: usize) -> Option<(Scope<'f>, &'f Monitor, usize)> {
+        let Running { file, content, origin, memory } = self.running.get(index)?;
+        let (file, content, origin, memory) = (*file, *content, origin.clone(), memory.clone());
+        let own = std::mem::take(&mut self.own_names);
+        let inner = self.within(0, |compiler| compiler.monitor_arguments(&own, file, content, &origin));
+        self.own_names = own;
+        let mut inner = inner?;
+        memory.iter().for_each(|&(name, memory)| inner.insert(name, memory));
+        Some((inner, content, file))
+    }
+
+    /// Lowers statements of a monitor.
+    fn monitor_statements(&mut self, mut scope: Scope<'f>, monitor: &'f Monitor, statements: &'f [Statement]) {
         let own = monitor.memory.iter().map(|(name, _)| name).collect();
         let variables = std::mem::replace(&mut self.variables, own);
-        self.commandless = Some(Commandless {
+        let outside = self.commandless.replace(Commandless {
             construct: "a monitor",
             hint: "a monitor only remembers; move it to the statements of a state",
             allows_records: false,
         });
-        self.statements(scope, &monitor.body);
-        self.commandless = None;
+        self.statements(&mut scope, statements);
+        self.commandless = outside;
         self.variables = variables;
     }
 
@@ -111,7 +156,20 @@ impl<'f> Compiler<'f> {
             let (mark, faults) = (self.code.mark(), self.diagnostics.len());
             let mut scope = self.scope_of_arguments(&monitor.arguments);
             self.monitor_memory(&mut scope, monitor);
-            self.monitor_body(&mut scope, monitor);
+            self.monitor_statements(scope.clone(), monitor, &monitor.body);
+            for (index, event) in monitor.events.iter().enumerate() {
+                if let Some(before) = monitor.events[..index].iter().find(|before| before.name.text == event.name.text)
+                {
+                    let message = format!("the name `{}` is declared twice", event.name.text);
+                    let diagnostic = Diagnostic::error("P0202", message, event.name.span, "declared again here");
+                    self.report(diagnostic.note(before.name.span, "first declared here").hint("choose another name"));
+                }
+                let mut scope = scope.clone();
+                let hidable = scope.len();
+                self.check_defaults(&event.arguments);
+                self.bind_arguments(&mut scope, hidable, &event.arguments);
+                self.monitor_statements(scope, monitor, &event.body);
+            }
             self.memories.clear();
             self.check_size(monitor.name.span);
             self.code.rewind(mark);
@@ -121,13 +179,106 @@ impl<'f> Compiler<'f> {
         }
     }
 
+    /// Gives a behaviour the monitors that are its arguments. They are those of the state that uses it, and do not change.
+    pub(super) fn give_monitors(&mut self, state: &'f State, scope: &mut Scope<'f>) {
+        let given = |compiler: &Self, argument: &Argument| match scope.get(&argument.name.text).flatten() {
+            Some(Value { r#type: Type::Monitor(_), .. }) => {
+                let user = compiler.hierarchy.instances[state.instance].user;
+                Some(user.filter(|_| state.parent == user))
+            }
+            _ => None,
+        };
+        let monitors: Vec<_> =
+            state.arguments.iter().filter_map(|argument| Some((argument, given(self, argument)?))).collect();
+        for (argument, user) in monitors {
+            let Some(user) = user else {
+                if !self.hierarchy.is_behaviour(state.instance) || state.parent.is_some() {
+                    let message = format!("the state `{}` takes a monitor", state.name.text);
+                    let diagnostic = Diagnostic::error("P0412", message, argument.name.span, "a monitor");
+                    self.report(diagnostic.hint("states know the monitors of the machine; only behaviours, laws, derived values and monitors take them"));
+                }
+                continue;
+            };
+            let states = self.hierarchy.states;
+            let Some(used) = &states[user].behaviour else { continue };
+            // Values that do not fit are reported where the state enters the behaviour.
+            let given = (Callee { what: "", label: "" }).values(&state.arguments, &used.values, used.span);
+            let position = state.arguments.iter().position(|known| known.name.span == argument.name.span);
+            let Some(given) = given.ok().and_then(|given| given.get(position?).copied()) else { continue };
+            let outer = self.scopes[user].clone();
+            let faults = self.diagnostics.len();
+            let value = self.within(self.hierarchy.file(user), |compiler| compiler.expression(&outer, given.value));
+            self.diagnostics.truncate(faults);
+            let value = value.filter(|value| matches!(value.r#type, Type::Monitor(_)));
+            scope.insert(&argument.name, value);
+        }
+    }
+
+    /// Lowers `tell monitor.event(values)`: the statements of the event, in this place.
+    pub(super) fn tell(
+        &mut self,
+        scope: &Scope<'f>,
+        [monitor, event]: [&'f Name; 2],
+        values: &'f [Expression],
+        span: Span,
+    ) -> Option<()> {
+        let value = self.monitor_named(scope, monitor)?;
+        let Running { content, file, .. } = self.running.get(usize::from(value.register))?;
+        let (content, file) = (*content, *file);
+        let Some(event) = content.events.iter().find(|known| known.name.text == event.text) else {
+            let message = format!("the monitor `{}` has no event `{}`", monitor.text, event.text);
+            let known: Vec<&str> = content.events.iter().map(|event| event.name.text.as_str()).collect();
+            let diagnostic = Diagnostic::error("P0203", message, event.span, "unknown event");
+            let hint = if known.is_empty() {
+                format!("declare it in the monitor: `on {} {{ \u{2026} }}`", event.text)
+            } else {
+                format!("it has {}", known.join(", "))
+            };
+            self.report(did_you_mean(diagnostic, &event.text, known).hint(hint));
+            return None;
+        };
+        let given = self.arguments(scope, file, &event.name, &event.arguments, values, span)?;
+        let (mut inner, ..) = self.inside(usize::from(value.register))?;
+        for argument in &event.arguments {
+            inner.insert(&argument.name, given.get(&argument.name.text).flatten());
+        }
+        // The event sets the memory of its monitor, also where a law tells it. There is no recursion: a monitor knows only
+        // those above it.
+        let (inlining, law) = (std::mem::take(&mut self.inlining), self.outer_use.take());
+        let written = self.descend(span, |compiler| {
+            compiler.within(file, |compiler| compiler.monitor_statements(inner, content, &event.body));
+            Some(())
+        });
+        (self.inlining, self.outer_use) = (inlining, law);
+        written
+    }
+
+    /// The monitor that a name means.
+    fn monitor_named(&mut self, scope: &Scope<'f>, name: &Name) -> Option<Value> {
+        let Some(value) = scope.get(&name.text) else {
+            self.unknown_name(scope, name);
+            return None;
+        };
+        let value = value?;
+        if let Type::Monitor(_) = value.r#type {
+            return Some(value);
+        }
+        let message = format!("`{}` is {}, and cannot be told anything", name.text, self.phrase(value.r#type));
+        let diagnostic = Diagnostic::error("P0301", message, name.span, "not a monitor");
+        self.report(diagnostic.hint("only a monitor has events"));
+        None
+    }
+
     /// The value of a monitor's memory.
-    pub(super) fn monitor_member(&mut self, monitor: usize, name: &Name) -> Option<Value> {
-        let running = self.running.get(monitor)?;
+    pub(super) fn monitor_member(&mut self, monitor: Value, name: &Name) -> Option<Value> {
+        let running = self.running.get(usize::from(monitor.register))?;
         if let Some(&(_, value)) = running.memory.iter().find(|(known, _)| known.text == name.text) {
             return value;
         }
-        let monitor = &running.declared.name.text;
+        let monitor = match &running.origin {
+            Origin::Declared { declared, .. } => &declared.name.text,
+            Origin::Unknown(_) => &running.content.name.text,
+        };
         let message = format!("the monitor `{monitor}` has no `{}`", name.text);
         let known: Vec<&str> = running.memory.iter().map(|(name, _)| name.text.as_str()).collect();
         let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown memory");

@@ -40,6 +40,7 @@ impl<'f> Compiler<'f> {
             }
             Statement::RecordPosition { position, contour } => self.record_position(scope, position, contour)?,
             Statement::Mark { name, whisker } => self.mark(scope, name, whisker)?,
+            Statement::Tell { monitor, event, values, span } => self.tell(scope, [monitor, event], values, *span)?,
             Statement::Steer(steer) => self.steer(scope, steer)?,
             Statement::Hold(span) => self.command(*span, Op::Hold)?,
             Statement::Stop(span) => self.command(*span, Op::Stop)?,
@@ -80,7 +81,7 @@ impl<'f> Compiler<'f> {
     fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
         let memory =
             |name: &&Name| scope.get(&name.text).flatten().is_some_and(|memory| memory.register == value.register);
-        if !self.variables.iter().any(memory) {
+        if matches!(value.r#type, Type::Monitor(_)) || !self.variables.iter().any(memory) {
             return value;
         }
         self.copied(value)

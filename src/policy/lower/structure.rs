@@ -260,6 +260,7 @@ impl<'f> Compiler<'f> {
         let start = scope.len();
         self.check_defaults(&state.arguments);
         self.bind_arguments(scope, start, &state.arguments);
+        self.give_monitors(state, scope);
         let names = state.arguments.iter().map(|argument| &argument.name.text);
         let arguments = names.map(|name| (name.clone(), scope.get(name).flatten())).collect();
         self.states.insert((state.instance, &state.name.text), StateEntry { index, arguments });

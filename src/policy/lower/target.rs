@@ -7,7 +7,7 @@ use crate::policy::ast::{Expression, File, Name, State, Step, Target};
 use crate::policy::expand::Instance;
 use crate::policy::foreign_syntax::target_advice;
 use crate::policy::suggestion::did_you_mean;
-use crate::policy::types::Value;
+use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{self, Block};
 
 use super::call::{Callee, Given, usage};
@@ -253,7 +253,9 @@ impl<'f> Compiler<'f> {
             })
             .collect();
         let mut copies = Vec::with_capacity(values.len());
-        for (value, argument) in values.into_iter().collect::<Option<Vec<_>>>()? {
+        // A behaviour got its monitors when it was declared.
+        let values = values.into_iter().collect::<Option<Vec<_>>>()?.into_iter();
+        for (value, argument) in values.filter(|(value, _)| !matches!(value.r#type, Type::Monitor(_))) {
             let between = self.code.allocate(value.r#type.width());
             self.code.copy(between, value.register, value.r#type.width());
             copies.push((argument.register, between, value.r#type.width()));

@@ -5,7 +5,7 @@ use crate::policy::ast::{Behaviour, Connection, Exit, Expression, Monitor, Name,
 use crate::policy::grammar::Rule;
 use crate::policy::parse_tree::Pair;
 
-use super::{Parsed, Reader, arguments, block, internal, statement, text, transition, values};
+use super::{Parsed, Reader, arguments, block, internal, law, statement, text, transition, values};
 
 /// Adds a state and its inner states to `states`.
 pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
@@ -66,10 +66,12 @@ pub(super) fn behaviour(pair: Pair<'_>) -> Parsed<Behaviour> {
 pub(super) fn monitor(reader: &mut Reader<'_>) -> Parsed<Monitor> {
     let (name, given) = (reader.name()?, arguments(reader)?);
     let used = if reader.has(Rule::application) { Some(step(reader.take(Rule::application)?)?) } else { None };
-    let mut monitor = Monitor { name, arguments: given, memory: Vec::new(), body: Vec::new(), used };
+    let mut monitor =
+        Monitor { name, arguments: given, memory: Vec::new(), body: Vec::new(), events: Vec::new(), used };
     while let Some(pair) = reader.rest() {
         match pair.as_rule() {
             Rule::memory => monitor.memory.push(variable(&mut Reader::new(pair))?),
+            Rule::event => monitor.events.push(law(&mut Reader::new(pair))?),
             _ => monitor.body.push(statement(pair)?),
         }
     }

@@ -220,7 +220,23 @@ fn where_anything_may_be_written_nothing_is_offered() {
 
 #[test]
 fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
-    let modules = ["feelers", "guards", "mounting", "platform", "retrieval", "swipe", "tunnel"];
+    let modules = [
+        "convexity",
+        "corridor",
+        "explore",
+        "feelers",
+        "first_contact",
+        "following",
+        "guards",
+        "mounting",
+        "obstacle",
+        "platform",
+        "retrieval",
+        "senses",
+        "sweep",
+        "swipe",
+        "tunnel",
+    ];
     assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));
     assert_eq!(labels("machine m\nuse std.\u{a7}"), modules);
     assert_eq!(labels("machine m\nuse std.sw\u{a7}\nwhisker r0"), modules);

@@ -8,7 +8,7 @@ use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
 use vibrissa_runtime::machine::{Action, Machine};
 
-use crate::common::{Feel, Script, program, run};
+use crate::common::{Feel, Script, program, run, run_program};
 use crate::programs::{machine, programs, scripts};
 
 /// A command that tells a number.
@@ -18,8 +18,12 @@ fn tell(number: &str) -> String {
 
 /// The numbers that a machine tells, tick by tick.
 fn told(text: &str, marks: &str) -> Vec<f64> {
+    speeds(run(text, &mut Script::touches(marks)).1)
+}
+
+fn speeds(ticks: Vec<(String, Action)>) -> Vec<f64> {
     let speed = |action| if let Action::Steer { speed, .. } = action { speed } else { f64::NAN };
-    run(text, &mut Script::touches(marks)).1.into_iter().map(|(_, action)| speed(action)).collect()
+    ticks.into_iter().map(|(_, action)| speed(action)).collect()
 }
 
 #[test]
@@ -79,10 +83,7 @@ fn two_uses_remember_for_themselves() {
     let feel = |touching| Feel { touching, ..Feel::default() };
     let ticks = [(true, false), (true, true), (false, true), (true, false)];
     let mut script = Script::new(ticks.iter().map(|&(a, b)| vec![feel(a), feel(b)]).collect());
-    let speeds: Vec<Action> = run(&text, &mut script).1.into_iter().map(|(_, action)| action).collect();
-    let speeds: Vec<f64> =
-        speeds.iter().map(|action| if let Action::Steer { speed, .. } = action { *speed } else { f64::NAN }).collect();
-    assert_eq!(speeds, [10.0, 21.0, 22.0, 32.0]);
+    assert_eq!(speeds(run(&text, &mut script).1), [10.0, 21.0, 22.0, 32.0]);
 }
 
 #[test]
@@ -99,6 +100,66 @@ fn a_monitor_of_a_library_is_the_same_as_one_of_the_machine() {
         let source = gather(&source, &mut |_| Ok(format!("library felt {monitor}")));
         assert_eq!(compile(&source).unwrap(), alone);
     }
+}
+
+/// A library with a monitor, and a behaviour and a law that take it.
+const LIBRARY: &str = "library seen
+    monitor seen(w: whisker) {
+        var count = 0
+        var place = 0
+        if w.touching { set count = count + 1 }
+        on moved(there: number, step: number = 1) { set place = there * step  set count = 0 }
+    }
+    law move(to: seen, there: number) { tell to.moved(there, step: 2) }
+    behaviour wait(memory: seen, most: number) {
+        exit over
+        initial Waiting
+        state Waiting {
+            steer body along vector(1, 0) at (100 * memory.place + memory.count) * 1 m/s turning 0 rad/s
+            when memory.count > most -> exit over
+            exit { do move(memory, memory.count) }
+        }
+    }";
+
+/// Commands of a machine that uses the library.
+fn told_with_library(machine: &str, marks: &str) -> Vec<f64> {
+    let source = Source::new("main.fsm", format!("machine m use \"seen.fsm\" whisker w {machine}"));
+    let source = gather(&source, &mut |_| Ok(LIBRARY.to_owned()));
+    let compiled = compile(&source).unwrap_or_else(|faults| panic!("{faults:?}"));
+    speeds(run_program(compiled, &mut Script::touches(marks)).1)
+}
+
+#[test]
+fn an_event_sets_the_memory_of_a_monitor_at_once() {
+    let text = format!(
+        "machine m whisker w initial A
+        monitor felt {{ var count = 0  set count = count + 1  on lost(step: number) {{ set count = count - step }} }}
+        state A {{ let before = felt.count  tell felt.lost(10 * before)  {} }}",
+        tell("felt.count")
+    );
+    assert_eq!(told(&text, "..."), [-9.0, 72.0, -657.0]);
+}
+
+#[test]
+fn a_behaviour_knows_the_monitors_that_it_is_given() {
+    let machine = "monitor right is seen(w)
+        initial A
+        state A is wait(right, 1) { on over -> B }
+        state B is wait(most: 2, memory: right) { on over -> A }";
+    // Leaving the behaviour tells the monitor its own count, twice.
+    assert_eq!(told_with_library(machine, "x.xxx.xx"), [1.0, 1.0, 400.0, 401.0, 402.0, 402.0, 600.0, 601.0]);
+}
+
+#[test]
+fn what_is_told_to_one_monitor_does_not_concern_another() {
+    let machine = format!(
+        "monitor one is seen(w)
+        monitor other is seen(w)
+        initial A
+        state A {{ do move(one, 7)  {} }}",
+        tell("10000 * one.place + 100 * one.count + other.count")
+    );
+    assert_eq!(told_with_library(&machine, "x.x"), [140_001.0, 140_001.0, 140_002.0]);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use vibrissa_runtime::machine::{
 use vibrissa_runtime::math;
 
 use super::interpreter::Interpreter;
-use super::tree::{Arguments, Derived, Expression, Law, Statement, Steer};
+use super::tree::{Arguments, Derived, Expression, Law, Monitor, Statement, Steer};
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Value {
@@ -292,6 +292,16 @@ impl Interpreter<'_> {
                 let Law { arguments, body, .. } = self.program.laws.iter().find(|known| known.name == *law).unwrap();
                 self.seen("do", Some(place.part));
                 return self.run(body, &mut inside(place, *site, arguments, values, "a law"));
+            }
+            Statement::Tell(monitor, values, site) => {
+                let told = self.values(values, place);
+                let Monitor { arguments, values, event, .. } = &self.program.monitors[*monitor];
+                let mut inside = inside(place, *site, &Vec::new(), Vec::new(), "an event");
+                let values = self.values(values, &mut inside);
+                let names = arguments.iter().chain(&event.0).map(|(name, _)| name.clone());
+                inside.locals = names.zip(values.into_iter().chain(told)).collect();
+                self.seen("tell", Some(place.part));
+                self.run(&event.1, &mut inside);
             }
             Statement::Record(whisker) => {
                 let whisker = self.value(whisker, place).whisker();

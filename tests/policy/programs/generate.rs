@@ -103,15 +103,10 @@ impl Grower<'_> {
                 self.know(&name, r#type, true);
                 memory.push((name, r#type, value));
             }
-            let mut body = Vec::new();
-            for _ in 0..self.pick(4) {
-                let (name, r#type, _) = self.one_of(&memory);
-                let set = Statement::Set(name, self.expression(r#type, 2));
-                let condition = (self.pick(2) == 1).then(|| self.expression(Type::Truth, 2));
-                body.push(
-                    condition.map_or(set.clone(), |condition| Statement::If(vec![(condition, vec![set])], Vec::new())),
-                );
-            }
+            let body = self.grow_memories(&memory);
+            // The names of its arguments may hide those of the monitor.
+            let event = self.arguments(2);
+            let event = (event, self.grow_memories(&memory));
             self.scope.truncate(outside);
             for (name, r#type) in &readable {
                 self.know(name, *r#type, false);
@@ -119,11 +114,25 @@ impl Grower<'_> {
             let values = self.values(&arguments, 2);
             self.scope.truncate(outside);
             readable.extend(memory.iter().map(|(name, r#type, _)| (format!("M{index}.{name}"), *r#type)));
-            self.program.monitors.push(Monitor { arguments, values, memory, body });
+            self.program.monitors.push(Monitor { arguments, values, memory, body, event });
         }
         for (name, r#type) in &readable {
             self.know(name, *r#type, false);
         }
+    }
+
+    /// Statements that set the memory of a monitor, some of them under a condition.
+    fn grow_memories(&mut self, memory: &[(String, Type, Expression)]) -> Vec<Statement> {
+        let mut body = Vec::new();
+        for _ in 0..self.pick(4) {
+            let (name, r#type, _) = self.one_of(memory);
+            let set = Statement::Set(name, self.expression(r#type, 2));
+            let condition = (self.pick(2) == 1).then(|| self.expression(Type::Truth, 2));
+            body.push(
+                condition.map_or(set.clone(), |condition| Statement::If(vec![(condition, vec![set])], Vec::new())),
+            );
+        }
+        body
     }
 
     /// What the machine itself remembers and does.
@@ -289,7 +298,7 @@ impl Grower<'_> {
     fn statement(&mut self, may: May, depth: u8) -> Statement {
         let memory: Vec<_> = self.known().into_iter().filter(|known| known.is_memory).collect();
         let laws: Vec<Law> = self.program.laws.iter().filter(|law| may.command || !law.commands).cloned().collect();
-        match self.pick(19) {
+        match self.pick(21) {
             0 | 1 => {
                 let r#type = self.one_of(&Type::ALL);
                 let (name, value) = (self.fresh_name(), self.expression(r#type, 2));
@@ -324,6 +333,12 @@ impl Grower<'_> {
             17 | 18 if self.program.contours > 0 => {
                 let contour = self.pick(self.program.contours);
                 Statement::RecordPosition(self.expression(Type::Place, 2), contour)
+            }
+            // Laws and the machine itself come before the monitors.
+            19 | 20 if may.set && !self.program.monitors.is_empty() => {
+                let monitor = self.pick(self.program.monitors.len());
+                let arguments = self.program.monitors[monitor].event.0.clone();
+                Statement::Tell(monitor, self.values(&arguments, 2), self.site())
             }
             _ => Statement::Record(self.expression(Type::Whisker, 1)),
         }

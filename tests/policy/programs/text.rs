@@ -69,11 +69,13 @@ impl Program {
             let typed: Vec<String> = typed(arguments);
             writeln!(text, "law {name}({}) {{\n{}}}", typed.join(", "), block(body)).unwrap();
         }
-        for (index, Monitor { arguments, values, memory, body }) in self.monitors.iter().enumerate() {
+        for (index, Monitor { arguments, values, memory, body, event }) in self.monitors.iter().enumerate() {
             let name = if arguments.is_empty() { format!("M{index}") } else { format!("T{index}") };
             let memory = memory.iter().map(|(name, _, value)| format!("var {name} = {}\n", value.text()));
             let memory = memory.collect::<String>();
-            writeln!(text, "monitor {name}{} {{\n{memory}{}}}", self::arguments(arguments), block(body)).unwrap();
+            let event = format!("on e{} {{\n{}}}\n", self::arguments(&event.0), block(&event.1));
+            writeln!(text, "monitor {name}{} {{\n{memory}{event}{}}}", self::arguments(arguments), block(body))
+                .unwrap();
             if !arguments.is_empty() {
                 writeln!(text, "monitor M{index} is {}", call(&name, values)).unwrap();
             }
@@ -192,6 +194,7 @@ impl Statement {
                 branches.join(" else ") + &otherwise
             }
             Self::Do(law, values, _) => format!("do {law}({})", list(values)),
+            Self::Tell(monitor, values, _) => format!("tell {}", call(&format!("M{monitor}.e"), values)),
             Self::RecordPosition(position, contour) => format!("record {} in c{contour}", position.text()),
             Self::Record(whisker) => format!("record {}", whisker.text()),
             Self::Mark(mark, whisker) => format!("mark {mark} {}", whisker.text()),

@@ -68,6 +68,8 @@ pub(crate) enum Statement {
     If(Vec<(Expression, Vec<Statement>)>, Vec<Statement>),
     /// A law, the values that it is given, and the number of this use.
     Do(String, Vec<Expression>, usize),
+    /// A monitor, the values that its event is given, and the number of this use.
+    Tell(usize, Vec<Expression>, usize),
     Record(Expression),
     /// A position, and the number of the contour that gets it.
     RecordPosition(Expression, usize),
@@ -168,6 +170,8 @@ pub(crate) struct Monitor {
     pub(crate) values: Vec<Expression>,
     pub(crate) memory: Vec<(String, Type, Expression)>,
     pub(crate) body: Vec<Statement>,
+    /// Its event, `e`.
+    pub(crate) event: (Arguments, Vec<Statement>),
 }
 
 #[derive(Clone, Default)]

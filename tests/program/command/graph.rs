@@ -34,15 +34,15 @@ fn graph_shows_a_part_of_a_statechart() {
             stdout(&output)
         };
         let outermost = shown(&["--depth", "1"]);
-        assert!(outermost.contains("Retrieval") && !outermost.contains("Springing"), "{outermost}");
-        let one = shown(&["--state", "Retrieval", "--depth", "1"]);
+        assert!(outermost.contains("Retrieving") && !outermost.contains("Springing"), "{outermost}");
+        let one = shown(&["--state", "Retrieving", "--depth", "1"]);
         assert!(one.contains("Springing") && !one.contains("Exploring"), "{one}");
     }
     for (arguments, is_told) in [(&[][..], true), (&["--depth", "1"], false)] {
         let output = vibrissa(&[&["graph", "policies/vibrissa.fsm"], arguments].concat());
         assert_eq!(stderr(&output).contains("`--depth 1` shows the outermost"), is_told, "{}", stderr(&output));
     }
-    let output = vibrissa(&["graph", "policies/vibrissa.fsm", "--state", "Retreival"]);
+    let output = vibrissa(&["graph", "policies/vibrissa.fsm", "--state", "Retreiving"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("do you mean `Retrieval`?"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("do you mean `Retrieving`?"), "{}", stderr(&output));
 }
