@@ -4,7 +4,7 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 15] = [
+pub(super) const MODULES: [(&str, &str); 16] = [
     ("convexity", include_str!("../../policies/std/convexity.fsm")),
     ("corridor", include_str!("../../policies/std/corridor.fsm")),
     ("explore", include_str!("../../policies/std/explore.fsm")),
@@ -17,6 +17,7 @@ pub(super) const MODULES: [(&str, &str); 15] = [
     ("platform", include_str!("../../policies/std/platform.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
     ("senses", include_str!("../../policies/std/senses.fsm")),
+    ("shaft", include_str!("../../policies/std/shaft.fsm")),
     ("sweep", include_str!("../../policies/std/sweep.fsm")),
     ("swipe", include_str!("../../policies/std/swipe.fsm")),
     ("tunnel", include_str!("../../policies/std/tunnel.fsm")),

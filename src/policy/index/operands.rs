@@ -1,5 +1,7 @@
 //! The operands before a `.` and the calls around a position.
 
+use std::collections::HashMap;
+
 use crate::policy::builtins;
 use crate::policy::format::{Token, TokenKind};
 use crate::policy::types::Type;
@@ -49,6 +51,13 @@ impl<'s> Operands<'s> {
         let behind = self.symbols.iter().enumerate().skip(callee + 1);
         let mut arguments = behind.take_while(|(_, symbol)| symbol.kind == SymbolKind::Argument);
         arguments.find(|(_, symbol)| symbol.owner == Some(callee) && symbol.name == name).map(|(index, _)| index)
+    }
+
+    /// Notes that the last token is an argument that is a monitor, if it is one. `contents` has the contents of monitors.
+    pub(super) fn note_monitor(&mut self, argument: usize, contents: &HashMap<usize, usize>) {
+        if self.symbols[argument].kind == SymbolKind::Argument && contents.contains_key(&argument) {
+            self.last = Some(Owner::State(argument));
+        }
     }
 
     /// Moves past a token. `before` is the previous one.

@@ -129,11 +129,8 @@ pub(super) fn resolve(
             resolved.owners.extend(operands.last.map(|owner| (token.start, owner)));
         }
         operands.advance(before, *token, meaning);
-        if let Some(Meaning::Symbol(argument, _)) = meaning
-            && symbols[argument].kind == SymbolKind::Argument
-            && resolved.behaviours.contains_key(&argument)
-        {
-            operands.last = Some(Owner::State(argument));
+        if let Some(Meaning::Symbol(argument, _)) = meaning {
+            operands.note_monitor(argument, &resolved.behaviours);
         }
         if is_word || token.kind == TokenKind::Unit {
             resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });

@@ -132,7 +132,9 @@ impl<'f> Compiler<'f> {
         let inner = self.within(0, |compiler| compiler.monitor_arguments(&own, file, content, &origin));
         self.own_names = own;
         let mut inner = inner?;
-        memory.iter().for_each(|&(name, memory)| inner.insert(name, memory));
+        for (name, memory) in memory {
+            inner.insert(name, memory);
+        }
         Some((inner, content, file))
     }
 

@@ -9,16 +9,47 @@ use vibrissa::scenario;
 
 use super::program::{ROOT, directory, stderr, stdout, vibrissa};
 
-/// The shipped policy that passes all convex corners, with changed text and a property.
+/// The shipped policy that passes all convex corners, with changed text and a property, and with the standard library as
+/// files beside it. A change is made in the file that contains its text.
 fn mutated(folder: &str, changes: &[(&str, &str)], property: &str) -> PathBuf {
-    let mut text = fs::read_to_string(Path::new(ROOT).join("policies/vibrissa.fsm")).unwrap();
+    let directory = directory(folder);
+    let policies = Path::new(ROOT).join("policies");
+    let library = fs::read_dir(policies.join("std")).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<(PathBuf, String)> = [policies.join("vibrissa.fsm")]
+        .into_iter()
+        .chain(library)
+        .map(|path| {
+            let text = with_local_library(&fs::read_to_string(&path).unwrap());
+            (directory.join(path.file_name().unwrap()), text)
+        })
+        .collect();
     for (from, to) in changes {
-        assert!(text.contains(from), "the policy no longer has `{from}`: plant the bug in another place");
-        text = text.replace(from, to);
+        let (_, text) = files
+            .iter_mut()
+            .find(|(_, text)| text.contains(from))
+            .unwrap_or_else(|| panic!("the policy no longer has `{from}`: plant the bug in another place"));
+        *text = text.replace(from, to);
     }
-    let policy = directory(folder).join("policy.fsm");
+    for (path, text) in &files {
+        fs::write(path, text).unwrap();
+    }
+    let policy = directory.join("policy.fsm");
+    fs::rename(directory.join("vibrissa.fsm"), &policy).unwrap();
+    let text = fs::read_to_string(&policy).unwrap();
     fs::write(&policy, text + property).unwrap();
     policy
+}
+
+/// A policy or a library that uses files beside it in place of the standard library.
+fn with_local_library(text: &str) -> String {
+    let line = |line: &str| match line.strip_prefix("use std.") {
+        Some(library) => {
+            let (name, rest) = library.split_at(library.find(' ').unwrap_or(library.len()));
+            format!("use \"{name}.fsm\"{rest}\n")
+        }
+        None => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
 }
 
 fn tested(policy: &Path, more: &[&str]) -> (Option<i32>, Value) {
@@ -67,22 +98,23 @@ property \"turns any corner\" over convex-corner(angle in 30 deg .. 150 deg, spe
 /// A policy that gives up where the surface behind a corner differs by 10° to 40° from the surface before it. The angles
 /// of the other corners of a scene are between 45° and 90°.
 fn with_threshold(folder: &str) -> PathBuf {
-    let swiping = "state Swiping(w: whisker) {\n";
-    let planted = format!(
-        "{swiping}  if is_straight(w) {{ set old_way = angle(w.contour.tangent)  set has_way = true }}\n  \
-         when has_way and is_straight(w) and |turn(old_way, angle(w.contour.tangent))| > 10 deg\n      \
-         and |turn(old_way, angle(w.contour.tangent))| < 40 deg -> Failure(\"the corner is too flat\")\n"
-    );
-    let property = "
-let is_straight(w: whisker) = w.contour.ready and |turn(angle(w.contour.tangent), angle(w.contour.tangent(15 mm)))| < 2 deg
-var old_way = 0 deg
-var has_way = false
+    let more = "
+monitor faces {
+  var last   = 0 deg
+  var any    = false
+  var turned = 0 deg
+  set turned = if any and is_straight(followed) then |turn(last, angle(followed.contour.tangent))| else 0 deg
+  if is_straight(followed) { set last = angle(followed.contour.tangent)  set any = true }
+}
+let is_straight(w: whisker) =
+    w.sense > 0 and w.contour.ready and |turn(angle(w.contour.tangent), angle(w.contour.tangent(15 mm)))| < 2 deg
+always when faces.turned > 10 deg and faces.turned < 40 deg -> Failure(\"the corner is too flat\")
 
 property \"turns any corner\" over convex-corner(angle in 30 deg .. 90 deg, speed in 2 .. 10 cm/s) {
   expect run.completed
 }
 ";
-    mutated(folder, &[(swiping, &planted)], property)
+    mutated(folder, &[], &more.replace("followed", "r0"))
 }
 
 #[test]

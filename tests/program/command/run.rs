@@ -49,8 +49,8 @@ fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
     let trial = ["families", "convex-corner", "--trial", "0"];
     let as_drawn = result(&["run", &path, "--set", set]);
     assert_eq!(as_drawn, result(&trial));
-    let bent = result(&["run", &path, "--set", set, "--set", "target=200 urad"]);
-    assert_eq!(bent, result(&[&trial[..], &["--set", "target=200 urad"]].concat()));
+    let bent = result(&["run", &path, "--set", set, "--set", "spying=20 mm/s"]);
+    assert_eq!(bent, result(&[&trial[..], &["--set", "spying=20 mm/s"]].concat()));
     assert_ne!(bent, as_drawn);
 }
 
