@@ -1,6 +1,6 @@
 //! The touches of a whisker and their result.
 
-use vibrissa_runtime::calibration::{Calibration, TouchFit, TouchNoise, TouchReading, TouchRefusal};
+use vibrissa_runtime::calibration::{Calibration, MeasuredWhisker, TouchFit, TouchNoise, TouchReading, TouchRefusal};
 use vibrissa_runtime::rig::Rig;
 
 /// The touches of a whisker and their result.
@@ -53,7 +53,8 @@ impl WhiskerTouches {
         }
     }
 
-    /// The calibration of the whisker.
+    /// The calibration of the whisker. Its offset is that at the start, because a robot measures the offset again at every
+    /// start, and the drift of a simulated sensor begins anew with every run.
     ///
     /// # Errors
     /// [`RefusedWhisker`] with the reason.
@@ -62,6 +63,7 @@ impl WhiskerTouches {
         let refused = |refusal: &TouchRefusal| RefusedWhisker { whisker: whisker.clone(), refusal: refusal.clone() };
         let fit = fit.as_ref().map_err(refused)?;
         let about = format!("{whisker}, {} touches of a known object", readings.len());
-        Ok(Calibration { measured: Some(fit.measured()), ..Calibration::new(about) })
+        let measured = MeasuredWhisker { offset: self.first_in_air, ..fit.measured() };
+        Ok(Calibration { measured: Some(measured), ..Calibration::new(about) })
     }
 }

@@ -128,18 +128,12 @@ impl ArrayCalibration {
         Ok(self.whiskers.iter().map(WhiskerTouches::calibration).collect::<Result<_, _>>()?)
     }
 
-    /// Gives the whiskers of a rig their calibrations, for runs that begin when the procedure began. So the offset is that
-    /// of the rest at its start.
+    /// Gives the whiskers of a rig their calibrations.
     ///
     /// # Errors
     /// [`ArrayCalibrationError::Refused`] with the first whisker that was refused.
     pub fn apply(&self, rig: &mut Rig) -> Result<(), ArrayCalibrationError> {
-        for ((whisker, mut calibration), touches) in
-            rig.whiskers.iter_mut().zip(self.calibrations()?).zip(&self.whiskers)
-        {
-            if let Some(measured) = &mut calibration.measured {
-                measured.offset = touches.first_in_air;
-            }
+        for (whisker, calibration) in rig.whiskers.iter_mut().zip(self.calibrations()?) {
             whisker.calibration = Some(calibration);
         }
         Ok(())

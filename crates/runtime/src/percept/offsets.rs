@@ -16,10 +16,26 @@ pub(super) struct Offsets {
     /// inertia.
     state: [f64; STATES],
     covariance: [[f64; STATES]; STATES],
+    /// The newest readings of each whisker in free air, the oldest first. They are measurements only when the whisker is still
+    /// free some ticks later, because a touch begins with small base angles.
+    waiting: [[Option<FreeReading>; WAITING]; MAX_WHISKERS],
     /// True once an offset is known to differ from 0.
     is_known: bool,
 }
 
+/// The mean reading of a whisker in free air in one tick.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FreeReading {
+    /// The reading (rad).
+    pub(super) reading: f64,
+    /// The base angle (rad) that is calculated for inertia.
+    pub(super) bent: f64,
+    /// Standard deviation (rad) of the noise.
+    pub(super) deviation: f64,
+}
+
+/// Number of ticks for which a reading waits.
+const WAITING: usize = 3;
 const STATES: usize = 2 * MAX_WHISKERS + 1;
 /// Standard deviation (µrad) of an offset at the start of a run.
 const FIRST_OFFSET: f64 = 10.0;
@@ -67,7 +83,7 @@ impl Offsets {
             }
         }
         covariance[2 * count][2 * count] = math::square(INERTIA);
-        Self { count, state, covariance, is_known: false }
+        Self { count, state, covariance, waiting: [[None; WAITING]; MAX_WHISKERS], is_known: false }
     }
 
     /// The offset (rad) of a whisker, or 0 while none is significant.
@@ -98,9 +114,22 @@ impl Offsets {
         }
     }
 
-    /// Adds the mean reading (rad) of a whisker in free air, with the base angle (rad) that is calculated for inertia.
-    /// `deviation` (rad) is the standard deviation of the noise.
-    pub(super) fn measure(&mut self, whisker: usize, reading: f64, bent: f64, deviation: f64) {
+    /// Adds the reading of a whisker in this tick. `None` for a whisker in contact.
+    pub(super) fn add(&mut self, whisker: usize, reading: Option<FreeReading>) {
+        let Some(waiting) = self.waiting.get_mut(whisker) else { return };
+        let Some(reading) = reading else {
+            *waiting = [None; WAITING];
+            return;
+        };
+        let oldest = waiting[0];
+        waiting.rotate_left(1);
+        waiting[WAITING - 1] = Some(reading);
+        if let Some(oldest) = oldest {
+            self.measure(whisker, oldest);
+        }
+    }
+
+    fn measure(&mut self, whisker: usize, FreeReading { reading, bent, deviation }: FreeReading) {
         let (inertia, measured, bent) = (2 * self.count, 2 * whisker, bent / MICRO);
         if bent.abs() > MOST_BENT {
             return;
@@ -138,6 +167,10 @@ mod tests {
 
     const PERIOD: f64 = 1.0 / 30.0;
 
+    fn free(reading: f64, bent: f64, deviation: f64) -> Option<FreeReading> {
+        Some(FreeReading { reading, bent, deviation })
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]
 
@@ -151,9 +184,9 @@ mod tests {
                 offsets.predict(PERIOD);
                 let (noise, drift) = (2e-7, rate * time);
                 if time < 5.0 {
-                    offsets.measure(0, first + drift + noise * pair[0], 0.0, noise);
+                    offsets.add(0, free(first + drift + noise * pair[0], 0.0, noise));
                 }
-                offsets.measure(1, second + drift + noise * pair[1], 0.0, noise);
+                offsets.add(1, free(second + drift + noise * pair[1], 0.0, noise));
                 if tick > 150 && first.abs() + second.abs() > 2e-6 {
                     // The two had 5 s to differ.
                     prop_assert!((offsets.value(1) - second - drift).abs() < 3e-7, "{time} s");
@@ -167,7 +200,7 @@ mod tests {
             let mut offsets = Offsets::new(1);
             for value in values {
                 offsets.predict(PERIOD);
-                offsets.measure(0, 1.5e-7 * value, 0.0, 1.5e-7);
+                offsets.add(0, free(1.5e-7 * value, 0.0, 1.5e-7));
                 prop_assert_eq!(offsets.value(0).to_bits(), 0.0_f64.to_bits());
             }
         }
@@ -177,9 +210,25 @@ mod tests {
             let mut offsets = Offsets::new(1);
             for tick in 0..200 {
                 offsets.predict(PERIOD);
-                offsets.measure(0, offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7);
+                offsets.add(0, free(offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7));
             }
             prop_assert!((offsets.value(0) - offset).abs() < TOLERATED);
+        }
+
+        #[test]
+        fn a_touch_that_begins_slowly_is_no_offset(first in -5e-6..5e-6_f64, rate in 2e-7..2e-6_f64, away in 0..400_u32) {
+            let mut offsets = Offsets::new(2);
+            for whisker in [0, 1] {
+                (0..90).for_each(|_| offsets.add(whisker, free(first, 0.0, 1e-8)));
+            }
+            for _ in 0..away {
+                offsets.predict(PERIOD);
+                offsets.add(0, None);
+            }
+            let before = offsets.value(0);
+            (1..4).for_each(|tick| offsets.add(0, free(first + f64::from(tick) * rate, 0.0, 1e-8)));
+            offsets.add(0, None);
+            prop_assert_eq!(offsets.value(0).to_bits(), before.to_bits());
         }
 
         #[test]
@@ -189,8 +238,8 @@ mod tests {
                 // The platform rotates in every second second.
                 let bent = if tick / 30 % 2 == 0 { 2.5e-7 } else { 0.0 };
                 offsets.predict(PERIOD);
-                offsets.measure(0, offset + effect * bent + 1e-8 * pair[0], bent, 1e-8);
-                offsets.measure(1, -offset - effect * bent + 1e-8 * pair[1], -bent, 1e-8);
+                offsets.add(0, free(offset + effect * bent + 1e-8 * pair[0], bent, 1e-8));
+                offsets.add(1, free(-offset - effect * bent + 1e-8 * pair[1], -bent, 1e-8));
             }
             prop_assert!((offsets.value(0) - offset).abs() < 1.2e-7, "{}", offsets.value(0) - offset);
             prop_assert!((offsets.value(1) + offset).abs() < 1.2e-7);

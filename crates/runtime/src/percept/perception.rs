@@ -19,7 +19,7 @@ use super::loop_watch::LoopWatch;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
 use super::motions::Motions;
-use super::offsets::Offsets;
+use super::offsets::{FreeReading, Offsets};
 use super::one_channel::OneChannel;
 use super::recorded_contour::RecordedContour;
 use super::recursive::{self, Recursive};
@@ -266,12 +266,11 @@ impl Perception {
         }
         let Some(acceleration) = self.acceleration.take(self.measured, period) else { return };
         for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
-            if let Some([reading, bent, deviation]) = whisker.free_reading(&acceleration) {
-                offsets.measure(index, reading, bent, deviation);
-                if let Some(motions) = &mut self.motions {
-                    let offset = offsets.value(index);
-                    motions.add_free(reading - offset, deviation, |acceleration| whisker.bent_by(acceleration));
-                }
+            let free = whisker.free_reading(&acceleration);
+            offsets.add(index, free);
+            if let Some((motions, FreeReading { reading, deviation, .. })) = self.motions.as_mut().zip(free) {
+                let offset = offsets.value(index);
+                motions.add_free(reading - offset, deviation, |acceleration| whisker.bent_by(acceleration));
             }
         }
     }

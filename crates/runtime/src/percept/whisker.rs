@@ -16,6 +16,7 @@ use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
 use super::inertia::{Acceleration, Inertia};
 use super::low_pass::LowPass;
 use super::measured_noise::MeasuredNoise;
+use super::offsets::FreeReading;
 use super::pose_delay::Misfit;
 use super::pose_noise::PoseDeviation;
 use super::recorded_contour::RecordedContour;
@@ -160,12 +161,16 @@ impl PerceivedWhisker {
         None
     }
 
-    /// The mean reading (rad) of this tick, the base angle (rad) that is calculated for this `acceleration` of the
-    /// platform, and the standard deviation (rad) of the noise. `None` unless the whisker is at rest in free air.
-    pub(super) fn free_reading(&self, acceleration: &Acceleration) -> Option<[f64; 3]> {
+    /// The mean reading of this tick, with the base angle that is calculated for this `acceleration` of the platform.
+    /// `None` unless the whisker is at rest in free air.
+    pub(super) fn free_reading(&self, acceleration: &Acceleration) -> Option<FreeReading> {
         let is_at_rest = self.count > 0 && self.free_for >= self.settled_after;
         let count = self.count as f64;
-        is_at_rest.then(|| [self.sum / count, self.inertia.base_angle(acceleration), self.used_noise / count.sqrt()])
+        is_at_rest.then(|| FreeReading {
+            reading: self.sum / count,
+            bent: self.inertia.base_angle(acceleration),
+            deviation: self.used_noise / count.sqrt(),
+        })
     }
 
     /// The base angle (rad) in free air on a platform that accelerates.
