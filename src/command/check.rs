@@ -14,7 +14,7 @@ use super::output;
 use crate::diagnostic::{Position, Record, records};
 use crate::file::CommandFiles;
 use crate::load::{self, LoadError, PolicyFile};
-use crate::policy::{self, Checked as Found};
+use crate::policy::{self, Checked as Found, ProvedContract};
 use crate::report::Table;
 use crate::results::Document;
 
@@ -63,6 +63,7 @@ struct Summary {
     needs: NeedsSummary,
     parameters: Vec<ParameterSummary>,
     states: Vec<StateSummary>,
+    contracts: Vec<ContractSummary>,
     /// Target of the fallback transition of states without their own.
     failsafe: Option<String>,
     /// Bytes of memory of a running machine.
@@ -127,6 +128,17 @@ struct PositionSchema {
 
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
+struct ContractSummary {
+    /// The state. `null` for a contract of the whole machine.
+    state: Option<String>,
+    /// The text of the contract.
+    contract: String,
+    /// True if no run can violate it. False if runs watch it.
+    proved: bool,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct StateSummary {
     name: String,
     /// Position in the policy's text.
@@ -182,7 +194,7 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
         PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
     };
     let (machine, library, diagnostics) = match policy::check(&source) {
-        Ok(Found::Machine(compiled)) => (Some(summary(&compiled.artifact)), None, compiled.warnings),
+        Ok(Found::Machine(compiled)) => (Some(summary(&compiled.artifact, &compiled.proved)), None, compiled.warnings),
         Ok(Found::Library { name, laws, values, behaviours, monitors, warnings }) => {
             (None, Some(LibrarySummary { name, laws, values, behaviours, monitors }), warnings)
         }
@@ -219,7 +231,8 @@ fn count(number: usize, of: &str) -> String {
 
 fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked, Failure> {
     let file = path.display().to_string();
-    let machine = summary(artifact);
+    // Only the compiler knows proofs, and an artifact does not contain what is proved.
+    let machine = summary(artifact, &[]);
     let origin = &artifact.origin;
     if !json {
         output::result(describe(&file, &machine))?;
@@ -235,7 +248,7 @@ fn check_machine(path: &Path, artifact: &Artifact, json: bool) -> Result<Checked
     Ok(Checked { file, error: None, machine: Some(machine), library: None, compiled, diagnostics: Vec::new() })
 }
 
-fn summary(artifact: &Artifact) -> Summary {
+fn summary(artifact: &Artifact, proved: &[ProvedContract]) -> Summary {
     let Artifact { program, positions: places, .. } = artifact;
     let parameter = |(parameter, &value): (&vibrissa_runtime::machine::Parameter, &f64)| ParameterSummary {
         name: parameter.name.clone(),
@@ -264,9 +277,25 @@ fn summary(artifact: &Artifact) -> Summary {
         needs: needs(&program.needs),
         parameters: program.parameters.iter().zip(&program.initial_registers).map(parameter).collect(),
         states: program.states.iter().enumerate().map(state).collect(),
+        contracts: contracts(program, proved),
         memory_bytes: program.memory_bytes(),
         most_operations: artifact.most_operations,
     }
+}
+
+fn contracts(program: &Program, proved: &[ProvedContract]) -> Vec<ContractSummary> {
+    let of = |state: Option<&str>, contract: &str, proved| ContractSummary {
+        state: state.map(str::to_owned),
+        contract: contract.to_owned(),
+        proved,
+    };
+    let proved = proved.iter().map(|contract| of(contract.state.as_deref(), &contract.text, true));
+    let own = program.contracts.iter().map(|contract| of(None, &contract.text, false));
+    let of_states = program
+        .states
+        .iter()
+        .flat_map(|state| state.contracts.iter().map(|contract| of(Some(&state.name), &contract.text, false)));
+    proved.chain(own).chain(of_states).collect()
 }
 
 fn needs(needs: &Needs) -> NeedsSummary {
@@ -327,5 +356,13 @@ fn describe(file: &str, machine: &Summary) -> String {
     if let Some(failsafe) = &machine.failsafe {
         text.extend(["failsafe -> ", failsafe, "\n"]);
     }
-    text + &states.fitted()
+    text += &states.fitted();
+    if !machine.contracts.is_empty() {
+        let contracts = machine.contracts.iter().map(|ContractSummary { state, contract, proved }| {
+            let how = if *proved { "proved" } else { "watched in runs" };
+            vec![state.clone().unwrap_or_default(), contract.clone(), how.to_owned()]
+        });
+        text += &format!("\n{}", Table::new(3, ["state", "contract", ""], contracts).fitted());
+    }
+    text
 }

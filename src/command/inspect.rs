@@ -23,7 +23,8 @@ pub(super) struct InspectionOptions {
     /// --break "r0.deflection > 300 urad". Repeatable
     #[arg(long = "break", value_name = "STATE|CONDITION", conflicts_with = "watch")]
     breakpoints: Vec<String>,
-    /// Write every transition that is taken into this file, with the parts of all guards, as one line of JSON each
+    /// Write every transition that is taken into this file, with the parts of all guards, as one line of JSON each. The
+    /// violations of contracts follow
     #[arg(long, value_name = "FILE", conflicts_with = "watch")]
     transitions: Option<PathBuf>,
 }
@@ -51,6 +52,9 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
         let mut inspector = Inspector::new(&policy, &trial.scene.name);
         let finished = trial.run_watched(&mut inspector);
         for line in inspector.transitions() {
+            lines += &output::json_line(line)?;
+        }
+        for line in inspector.violations() {
             lines += &output::json_line(line)?;
         }
         if let Some(origin) = inspector.origin_of_non_finite() {

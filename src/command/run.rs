@@ -184,6 +184,9 @@ pub(super) fn reports(
 pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<ReportFiles>) -> Result<RunResult, Failure> {
     let result = trial.document(finished);
     report_events(&result);
+    for contract in finished.run.contracts.iter().filter(|contract| contract.violations > 0) {
+        output::message(format_args!("{}: {contract}", trial.scene.name));
+    }
     for violation in &finished.violations {
         output::message(format_args!("{}: {violation}", trial.scene.name));
     }

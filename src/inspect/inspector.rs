@@ -2,13 +2,15 @@
 
 use std::ops::ControlFlow;
 
-use vibrissa_runtime::machine::{Observer, Program, Standing, TIME_SLACK, Target, TransitionId, TriedGuard};
+use vibrissa_runtime::machine::{
+    ContractId, Observer, Program, Standing, TIME_SLACK, Target, TransitionId, TriedGuard, ViolatedContract,
+};
 
 use crate::policy::explain::Variable;
 use crate::run::{Trace, Watcher};
 
 use super::breakpoint::{Breakpoint, Breakpoints, Place};
-use super::records::{GuardRecord, StopRecord, TransitionLine, VariableRecord};
+use super::records::{GuardRecord, LeafRecord, StopRecord, TransitionLine, VariableRecord, ViolationLine};
 
 /// Watches one run of an explained policy. It collects the transitions that are taken, and stops the run at a breakpoint.
 ///
@@ -29,6 +31,9 @@ pub struct Inspector<'b> {
     entered: usize,
     ticks: usize,
     transitions: Vec<TransitionLine>,
+    /// The violations of contracts in the current tick, and in earlier ones.
+    violated: Vec<ViolationLine>,
+    violations: Vec<ViolationLine>,
     /// For each breakpoint, the time (s) since which its condition holds.
     holding_since: Vec<Option<f64>>,
     stop: Option<StopRecord>,
@@ -49,6 +54,8 @@ impl<'b> Inspector<'b> {
             entered: 0,
             ticks: 0,
             transitions: Vec::new(),
+            violated: Vec::new(),
+            violations: Vec::new(),
             holding_since: vec![None; policy.breakpoints.len()],
             stop: None,
             origin: None,
@@ -59,6 +66,12 @@ impl<'b> Inspector<'b> {
     #[must_use]
     pub fn transitions(&self) -> &[TransitionLine] {
         &self.transitions
+    }
+
+    /// The violations of contracts. One that lasts for several ticks is listed once.
+    #[must_use]
+    pub fn violations(&self) -> &[ViolationLine] {
+        &self.violations
     }
 
     /// The stop at a breakpoint, if there was one.
@@ -168,6 +181,21 @@ impl Observer for Inspector<'_> {
         self.innermost = self.target(transition);
     }
 
+    fn violated(&mut self, violated: &ViolatedContract<'_>) {
+        let ViolatedContract { id: ContractId { state, .. }, is_new, registers, .. } = *violated;
+        let Some(contract) = self.policy.explained.contract(violated.id).filter(|_| is_new) else { return };
+        self.violated.push(ViolationLine {
+            scenario: self.scenario.clone(),
+            time_s: 0.0,
+            tick: self.ticks,
+            state: state.map(|state| self.state_name(state)),
+            contract: contract.text.clone(),
+            file: contract.file.clone(),
+            line: contract.position.line,
+            parts: contract.violation.judge(registers).iter().map(LeafRecord::new).collect(),
+        });
+    }
+
     fn not_finite(&mut self, state: usize, registers: &[f64]) {
         if self.origin.is_none() {
             self.origin = self.policy.explained.origin_of_non_finite(state, registers);
@@ -188,9 +216,9 @@ impl Inspector<'_> {
 
     /// Ends the records of a tick at a time (s). `state` is the innermost active state, or `None` after the end of the machine.
     pub(super) fn end_tick(&mut self, time_s: f64, state: Option<usize>) {
-        for line in &mut self.taken {
-            line.time_s = time_s;
-        }
+        self.taken.iter_mut().for_each(|line| line.time_s = time_s);
+        self.violated.iter_mut().for_each(|line| line.time_s = time_s);
+        self.violations.append(&mut self.violated);
         self.innermost = state.or(self.innermost);
         if let Some(state) = state
             && let Some(breakpoint) = self.hit(state, time_s)

@@ -8,4 +8,4 @@ mod records;
 pub use breakpoint::{Breakpoint, Breakpoints};
 pub use difference::{DifferentTick, PolicyDifference, PolicyTick, first_difference};
 pub use inspector::Inspector;
-pub use records::{GuardRecord, LeafRecord, Margin, StopRecord, TransitionLine, VariableRecord};
+pub use records::{GuardRecord, LeafRecord, Margin, StopRecord, TransitionLine, VariableRecord, ViolationLine};

@@ -32,6 +32,32 @@ impl Document for TransitionLine {
     const FORMAT: &'static str = "transition";
 }
 
+/// A contract that was violated. Its serialised form is a line that `run --transitions` writes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct ViolationLine {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Time since the start of the run.
+    pub time_s: f64,
+    /// Index of the tick.
+    pub tick: usize,
+    /// The state to which the contract belongs. `None` for a contract of the whole machine.
+    pub state: Option<String>,
+    /// The contract, as in the policy.
+    pub contract: String,
+    /// The file that contains it. `None` for the policy itself.
+    pub file: Option<String>,
+    /// Its line in that file.
+    pub line: usize,
+    /// The parts of the condition of its violation.
+    pub parts: Vec<LeafRecord>,
+}
+
+impl Document for ViolationLine {
+    const FORMAT: &'static str = "violation";
+}
+
 /// A guard with its standing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

@@ -116,7 +116,7 @@ fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>
     let (source, compiled) = gather_and_compile(source, library);
     let hash = Sha256::new().chain_update(&source.text);
     match compiled {
-        Ok(Compiled { artifact, tests, warnings }) => {
+        Ok(Compiled { artifact, tests, warnings, proved: _ }) => {
             let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests }) };
             Ok(Loaded { value, hash })
         }

@@ -45,6 +45,7 @@ pub(super) struct File {
     pub(super) always: Vec<Transition>,
     /// `failsafe -> target`
     pub(super) failsafes: Vec<Target>,
+    pub(super) contracts: Vec<Contract>,
     pub(super) tests: Vec<Test>,
 }
 
@@ -217,6 +218,7 @@ pub(super) struct State {
     pub(super) body: Vec<Statement>,
     pub(super) transitions: Vec<Transition>,
     pub(super) failsafes: Vec<Target>,
+    pub(super) contracts: Vec<Contract>,
     /// `is name(values)`: the behaviour that is the content of the state.
     pub(super) behaviour: Option<Step>,
     /// `on exit(names) -> target`
@@ -295,6 +297,23 @@ impl Guard {
             Self::After(time) => time.span,
         }
     }
+}
+
+/// `assume condition`, `never condition for time`, `always condition within time`
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Contract {
+    pub(super) kind: ContractKind,
+    pub(super) condition: Expression,
+    /// The time after `for` or `within`.
+    pub(super) time: Option<Expression>,
+    pub(super) span: Span,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ContractKind {
+    Assume,
+    Never,
+    Always,
 }
 
 /// `Name(values)`: a state and the values of its arguments.

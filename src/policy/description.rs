@@ -1,11 +1,14 @@
-//! Descriptions of items in comments.
+//! Descriptions of items in comments, and the texts of contracts.
+
+use std::sync::Arc;
 
 use crate::diagnostic::{Source, Span};
 
-use super::ast::File;
+use super::ast;
 use super::format::comment_behind;
 use super::grammar::is_word;
-use vibrissa_runtime::machine::{DESCRIPTION_LIMIT, Program};
+use super::load::Files;
+use vibrissa_runtime::machine::{Contract, DESCRIPTION_LIMIT, Program};
 
 /// The description of the item whose name is at `name`: the comment at the end of its line, or else the comment lines
 /// directly above.
@@ -39,10 +42,20 @@ fn comment_above(before: &str) -> String {
     lines.into_iter().rev().filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Adds descriptions to the parameters of a program. `file` is the file that declares them.
-pub(super) fn describe(program: &mut Program, source: &Source, file: &File) {
+/// Adds descriptions to the parameters of a program, and texts to its contracts.
+pub(super) fn describe(program: &mut Program, source: &Source, files: &Files) {
+    let file = &files.main;
     for (parameter, written) in program.parameters.iter_mut().zip(&file.parameters) {
         parameter.description = description(source, written.name.span).unwrap_or_default();
+    }
+    let give_texts = |contracts: &mut [Contract], written: &[ast::Contract]| {
+        for (contract, written) in contracts.iter_mut().zip(written) {
+            contract.text = Arc::from(bounded(source.on_one_line(written.span)));
+        }
+    };
+    give_texts(&mut program.contracts, &file.contracts);
+    for (state, written) in program.states.iter_mut().zip(&files.machine.states) {
+        give_texts(&mut state.contracts, &written.contracts);
     }
 }
 

@@ -19,9 +19,9 @@ const NESTING_LIMIT: usize = 64;
 pub(super) const LENGTH_LIMIT: usize = 1 << 18;
 
 /// Keywords that are followed by an expression.
-const WORDS_BEFORE_OPERANDS: [&str; 17] = [
+const WORDS_BEFORE_OPERANDS: [&str; 20] = [
     "and", "or", "not", "if", "then", "else", "when", "after", "for", "in", "record", "steer", "along", "at", "facing",
-    "turning", "expect",
+    "turning", "expect", "assume", "never", "always",
 ];
 
 mod derived {

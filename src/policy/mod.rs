@@ -37,6 +37,7 @@ mod test;
 mod types;
 mod unit;
 
+pub use analysis::ProvedContract;
 pub use defaults::with_defaults;
 pub use format::format;
 pub use load::Library;
@@ -55,6 +56,8 @@ pub struct Compiled {
     pub tests: Vec<PolicyTest>,
     /// Warnings about probable mistakes, in the order of the text (the first fifty).
     pub warnings: Vec<Diagnostic>,
+    /// The contracts that no run can violate. The program does not contain them.
+    pub proved: Vec<ProvedContract>,
 }
 
 /// The content of a file without errors.
@@ -144,7 +147,7 @@ fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagn
     // After the analysis, which reads conditions as they are written.
     let program = optimise::optimise(lowered.program);
     let artifact = artifact::artifact(&source, &files, program);
-    Ok(Compiled { artifact, tests: lowered.tests, warnings })
+    Ok(Compiled { artifact, tests: lowered.tests, warnings, proved: lowered.proved })
 }
 
 /// Checks a policy or a library.
@@ -201,9 +204,13 @@ fn checked_library(source: &Source, loaded: Loaded) -> Result<(Source, Files), V
 }
 
 fn front(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
-    let (whole, files, lowered) = lowered(source, loaded)?;
+    let (whole, mut files, mut lowered) = lowered(source, loaded)?;
     let errors = analysis::errors(&files, &lowered);
-    if errors.is_empty() { Ok((whole, files, lowered)) } else { Err(errors) }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    lowered.proved = analysis::take_proved(&mut files, &mut lowered);
+    Ok((whole, files, lowered))
 }
 
 fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
@@ -213,7 +220,7 @@ fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Low
         let lowered = if files.main.is_library { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
         match lowered {
             Ok(mut lowered) if recovery.is_whole() => {
-                description::describe(&mut lowered.program, &whole, &files.main);
+                description::describe(&mut lowered.program, &whole, &files);
                 return Ok((whole, files, lowered));
             }
             Ok(_) => {}

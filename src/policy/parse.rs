@@ -3,6 +3,7 @@
 //! The grammar determines the order of the pairs, so this module only reads them in order. If a promised pair is
 //! missing, [`Reader`] returns an internal error instead of a panic.
 
+mod contract;
 mod expression;
 mod reader;
 mod state;
@@ -18,6 +19,7 @@ use super::ast::{
 };
 use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
+use contract::contract;
 use expression::{binary, choice, climb, named_value};
 use reader::{Reader, values};
 use state::{behaviour, monitor, state, target, variable};
@@ -53,6 +55,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         always: Vec::new(),
         tests: Vec::new(),
         failsafes: Vec::new(),
+        contracts: Vec::new(),
     };
     for item in Pairs::new(&found, &source.text, start).flat_map(Pair::into_inner) {
         let rule = item.as_rule();
@@ -104,6 +107,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             Rule::property => file.tests.push(property(&mut reader)?),
             Rule::failsafe => file.failsafes.push(target(reader.take(Rule::target)?)?),
             Rule::memory => file.memory.push(variable(&mut reader)?),
+            Rule::assume | Rule::never | Rule::recurring => file.contracts.push(contract(item)?),
             _ => {
                 file.acts.get_or_insert(item.span());
                 file.body.push(statement(item)?);

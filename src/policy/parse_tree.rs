@@ -129,6 +129,9 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_law
             | Rule::kw_state
             | Rule::kw_always
+            | Rule::kw_assume
+            | Rule::kw_never
+            | Rule::within
             | Rule::kw_failsafe
             | Rule::kw_when
             | Rule::kw_after

@@ -17,7 +17,7 @@ use super::parse::parse;
 const ATTEMPTS: usize = 20;
 
 /// Keywords that begin an item.
-const ITEM_WORDS: [&str; 17] = [
+const ITEM_WORDS: [&str; 19] = [
     "type",
     "whisker",
     "needs",
@@ -29,6 +29,8 @@ const ITEM_WORDS: [&str; 17] = [
     "behaviour",
     "monitor",
     "always",
+    "assume",
+    "never",
     "failsafe",
     "use",
     "test",
@@ -37,7 +39,7 @@ const ITEM_WORDS: [&str; 17] = [
     "library",
 ];
 /// Keywords among them that also occur within braces.
-const INNER_WORDS: [&str; 4] = ["initial", "let", "state", "failsafe"];
+const INNER_WORDS: [&str; 7] = ["initial", "let", "state", "always", "assume", "never", "failsafe"];
 /// A word that begins an item and is a name anywhere else.
 const CONTEXTUAL_WORD: &str = "contour";
 /// Keywords that begin a statement or a memory declaration, in a state or outside.
@@ -45,7 +47,7 @@ const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", 
 /// Keywords that can begin a continuation line of an item.
 const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
 /// Keywords that begin other parts of a state.
-const PART_WORDS: [&str; 6] = ["let", "when", "after", "entry", "exit", "failsafe"];
+const PART_WORDS: [&str; 9] = ["let", "when", "after", "entry", "exit", "assume", "never", "always", "failsafe"];
 /// Words that begin another part of a state at the beginning of a line, and are names anywhere else.
 const CONTEXTUAL_PART_WORDS: [&str; 2] = ["on", "tell"];
 

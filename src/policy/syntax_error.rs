@@ -9,13 +9,13 @@ use super::grammar::{Rule, brackets, is_keyword, is_word};
 use super::suggestion::did_you_mean;
 
 /// The constructs that begin an item, in their usual order.
-const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `type`, `param`, `initial`, `var`, `let`, `law`, `state`, `behaviour`, `monitor`, `always`, `failsafe`, `test`, `property`)";
+const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `type`, `param`, `initial`, `var`, `let`, `law`, `state`, `behaviour`, `monitor`, `always`, `assume`, `never`, `failsafe`, `test`, `property`)";
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Keywords that occur only outside of all braces.
-const ITEM_WORDS: [&str; 15] = [
+const ITEM_WORDS: [&str; 14] = [
     "machine",
     "library",
     "use",
@@ -28,7 +28,6 @@ const ITEM_WORDS: [&str; 15] = [
     "state",
     "behaviour",
     "monitor",
-    "always",
     "test",
     "property",
 ];
@@ -175,6 +174,9 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
              `do`"
                 .to_owned()
         }
+        "when" if before.trim_end().ends_with("always") => {
+            "a transition of all states is outside of their braces; a contract is `always condition within time`".to_owned()
+        }
         "else" => "`else` follows the `}` of an `if`".to_owned(),
         "machine" | "library" => "a file has one machine or one library, in its first line".to_owned(),
         _ if rules == [Rule::dot] => {
@@ -260,6 +262,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::kw_at => (0, "`at`"),
         Rule::kw_facing => (0, "`facing`"),
         Rule::kw_turning => (0, "`turning`"),
+        Rule::within => (0, "`within`"),
         Rule::kw_for => (1, "`for`"),
         Rule::kw_in => (1, "`in`"),
         Rule::kw_or if among.len() == 1 => (1, "`or`"),
@@ -329,6 +332,9 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_property => "property",
         Rule::spanning => "over",
         Rule::kw_expect => "expect",
+        Rule::kw_assume => "assume",
+        Rule::kw_never => "never",
+        Rule::within => "within",
         Rule::kw_failsafe => "failsafe",
         Rule::kw_when => "when",
         Rule::kw_after => "after",

@@ -13,6 +13,8 @@ use vibrissa_runtime::units::{Dimension, format_si};
 pub struct PolicyTest {
     /// The title.
     pub title: String,
+    /// Span of the title.
+    pub title_span: Span,
     /// The scenes.
     pub scenes: TestScenes,
     /// The changed parameters, by index, with their values (SI).
@@ -22,6 +24,13 @@ pub struct PolicyTest {
 }
 
 impl PolicyTest {
+    /// The diagnostic for a run that violates a contract of the policy. `details` name the contract and its time.
+    #[must_use]
+    pub fn contract_violation(&self, details: &str) -> Diagnostic {
+        Diagnostic::error("P0705", "the run violates a contract of the policy", self.title_span, "in this test")
+            .hint(details.to_owned())
+    }
+
     /// Sets the parameters of the policy's own `program` to the values of the test.
     pub fn set(&self, program: &mut Program) {
         for &(parameter, value) in &self.settings {

@@ -1,5 +1,6 @@
 //! Results as JSON documents: runs, ticks, and counts over runs.
 
+mod contract_result;
 mod document;
 mod drive_result;
 mod inclination;
@@ -8,6 +9,7 @@ mod run_result;
 mod tally;
 mod tick_line;
 
+pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
 pub use inclination::Inclination;

@@ -1,6 +1,7 @@
 //! The result of a run as a JSON document.
 
 use super::Document;
+use super::contract_result::ContractResult;
 use super::inclination::Inclination;
 use serde::{Serialize, Serializer};
 
@@ -62,6 +63,8 @@ pub struct RunResult {
     pub hausdorff_mm: Option<f64>,
     /// The fallback transitions.
     pub failsafes: Failsafes,
+    /// The contracts of the policy that the run watched.
+    pub contracts: Vec<ContractResult>,
     /// The retrievals of whiskers that had lost the object. `None` if the policy made no marks.
     pub retrieval: Option<Retrieval>,
     /// Distance of the estimated midpoints from the axis of a tunnel. `None` outside of tunnels.
@@ -371,6 +374,7 @@ impl RunResult {
             }),
             hausdorff_mm: score.hausdorff.map(millimetres),
             failsafes: fallbacks(&run.trace),
+            contracts: run.contracts.iter().map(ContractResult::new).collect(),
             retrieval: score.retrieval.as_ref().map(Retrieval::new),
             axis_mm: score.axis.map(|axis| MeanStd::new(Some(axis), 1e3)),
             corners: score.corners.as_ref().map(Corners::new),

@@ -9,6 +9,7 @@ use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Observer;
 use vibrissa_runtime::signal::Command;
 
+use super::contract::ContractRecord;
 use super::monitor::Monitor;
 use super::trace::Trace;
 
@@ -23,6 +24,8 @@ pub struct Run {
     pub final_state: String,
     /// The trace.
     pub trace: Trace,
+    /// The contracts of the policy that the run watched.
+    pub contracts: Vec<ContractRecord>,
     /// Wall time of the loop alone.
     pub wall: Duration,
     /// Wall time from the request of the run to the end of its first tick. The control loop sets it to the time of the

@@ -10,6 +10,7 @@ use vibrissa_runtime::machine::{Fallback, Senses, Status, Tick, WhiskerScalar, W
 use vibrissa_runtime::percept::{LoopWatch, Perception};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
+use super::contract::ContractRecord;
 use super::drive::Run;
 use super::stall_watch::StallWatch;
 use super::trace::{Contact, MarkRecord, TickRecord, Trace};
@@ -137,11 +138,13 @@ impl Monitor {
     /// The finished run.
     #[must_use]
     pub fn finish(self, control: &Control, ending: Ending) -> Run {
+        let machine = control.machine();
         Run {
             outcome: ending.outcome,
             reason: ending.reason,
-            final_state: control.machine().state_name().to_owned(),
+            final_state: machine.state_name().to_owned(),
             trace: self.trace,
+            contracts: machine.contracts().map(|observed| ContractRecord::new(machine.program(), &observed)).collect(),
             wall: self.start.elapsed(),
             start: self.first_tick.unwrap_or_default(),
             tick_times: self.tick_times,

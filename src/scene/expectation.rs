@@ -97,6 +97,11 @@ pub enum Violation {
         /// The value, in SI units; `None` if the run has none.
         found: Option<f64>,
     },
+    /// The policy violated contracts of its own.
+    Contracts {
+        /// Number of violated contracts.
+        violated: usize,
+    },
 }
 
 impl Outcome {
@@ -239,6 +244,8 @@ impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Outcome { expected, found } => write!(f, "the outcome is {found}, expected {expected}"),
+            Self::Contracts { violated: 1 } => f.write_str("the policy violated one of its contracts"),
+            Self::Contracts { violated } => write!(f, "the policy violated {violated} of its contracts"),
             Self::Bound { metric, bound, found } => {
                 let found = found.map_or("not known".to_owned(), |value| metric.format(value));
                 let side = if metric.is_lower_bounded() { "at least" } else { "at most" };

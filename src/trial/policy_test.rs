@@ -6,11 +6,14 @@ use crate::policy::{PolicyTest, RunFigure};
 use crate::scene::{Metric, Outcome};
 use vibrissa_runtime::machine::Program;
 
-/// The expectations of a `test` or a property that do not hold for the `result` of `program`. Empty if the test passed.
+/// The expectations of a `test` or a property that do not hold for the `result` of `program`, and the contracts that it
+/// violated. Empty if the test passed.
 #[must_use]
 pub(crate) fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) -> Vec<Diagnostic> {
     let figure = |wanted| figure(wanted, program, result);
-    test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure)).collect()
+    let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(program, figure));
+    let violated = result.run.contracts.iter().filter(|contract| contract.violations > 0);
+    faults.chain(violated.map(|contract| test.contract_violation(&contract.to_string()))).collect()
 }
 
 /// A figure of a run (SI, bool as 1 and 0). Not a number if the run does not have it.

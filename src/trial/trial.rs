@@ -172,7 +172,9 @@ impl Trial {
         let score = Score::new(&run, &self.scene.truth, &self.true_rig());
         let expectations = self.scene.expect.iter();
         let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));
-        TrialResult { violations: violations.collect(), run, score }
+        let violated = run.contracts.iter().filter(|contract| contract.violations > 0).count();
+        let violations = violations.chain((violated > 0).then_some(Violation::Contracts { violated })).collect();
+        TrialResult { violations, run, score }
     }
 
     /// The result as a JSON document.

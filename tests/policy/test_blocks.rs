@@ -54,3 +54,15 @@ fn a_scenario_that_cannot_be_read_is_shown_where_the_test_names_it() {
     snapshots("policies")
         .bind(|| insta::assert_snapshot!(format!("test@{name}"), String::from_utf8(output.stderr).unwrap()));
 }
+
+#[test]
+fn a_violated_contract_is_shown_at_the_title_of_the_test() {
+    let name = "expectation_that_does_not_hold.fsm";
+    let text = include_str!("../fixtures/policies/test/expectation_that_does_not_hold.fsm");
+    let source = Source::new(name, text);
+    let test = &compile_with_warnings(&source).unwrap().tests[0];
+    let fault = test.contract_violation("state Still: violated `never time > 3 s` in 4 ticks, first at 3.03 s");
+    snapshots("policies").bind(|| {
+        insta::assert_snapshot!("test@violated_contract", terminal(&source, &[fault], Colour::Plain));
+    });
+}

@@ -7,6 +7,7 @@
 
 mod arithmetic;
 mod bounds;
+mod contract;
 mod cycle;
 mod cycle_search;
 mod data_flow;
@@ -27,11 +28,13 @@ mod unused;
 mod witness;
 
 use crate::diagnostic::Diagnostic;
+use vibrissa_runtime::machine;
 
-use super::ast::Behaviour;
+use super::ast::{self, Behaviour};
 use super::expand::Instance;
 use super::load::Files;
 use super::lower::Lowered;
+use contract::Proofs;
 use model::{Edge, Model};
 use search::Search;
 
@@ -43,6 +46,45 @@ pub(super) fn errors(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     in_order(cycle::cycles(&Model::new(files, lowered)))
 }
 
+/// Removes the contracts that are proved from a program and from its syntax tree, and returns their states and texts. A
+/// machine need not watch them.
+pub(super) fn take_proved(files: &mut Files, lowered: &mut Lowered) -> Vec<ProvedContract> {
+    let has_any = !lowered.program.contracts.is_empty();
+    if !has_any && lowered.program.states.iter().all(|state| state.contracts.is_empty()) {
+        return Vec::new();
+    }
+    let Proofs { machine, states } = contract::prove(&Model::new(files, lowered));
+    let mut proved = Vec::new();
+    let mut take = |state: Option<&str>,
+                    contracts: &mut Vec<machine::Contract>,
+                    written: &mut Vec<ast::Contract>,
+                    is_proved: &[bool]| {
+        let known = contracts.iter().zip(is_proved).filter(|(_, is_proved)| **is_proved);
+        let state = state.map(str::to_owned);
+        proved.extend(
+            known.map(|(contract, _)| ProvedContract { state: state.clone(), text: contract.text.to_string() }),
+        );
+        let (mut kept, mut kept_written) = (is_proved.iter(), is_proved.iter());
+        contracts.retain(|_| kept.next() == Some(&false));
+        written.retain(|_| kept_written.next() == Some(&false));
+    };
+    take(None, &mut lowered.program.contracts, &mut files.main.contracts, &machine);
+    let of_states = lowered.program.states.iter_mut().zip(&mut files.machine.states).zip(&states);
+    for ((state, written), is_proved) in of_states {
+        take(Some(&state.name), &mut state.contracts, &mut written.contracts, is_proved);
+    }
+    proved
+}
+
+/// A contract that no run can violate.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProvedContract {
+    /// Name of its state. `None` for a contract of the whole machine.
+    pub state: Option<String>,
+    /// Its text on one line.
+    pub text: String,
+}
+
 /// Warnings, in the order of the text.
 pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     let model = Model::new(files, lowered);
@@ -52,6 +94,7 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
     reachability::without_exit(&model, &mut warnings);
     let mut search = Search::new(&model);
     transitions(&mut search, (&[], &[]), &model.always, &mut warnings);
+    contract::violated(&mut search, &model.program.contracts, &files.main.contracts, &mut warnings);
     // For every state, its transitions that can be due.
     let mut due: Vec<Vec<Edge<'_>>> = Vec::with_capacity(model.states.len());
     for (index, state) in model.states.iter().enumerate() {
@@ -60,6 +103,8 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
             around.into_iter().filter(|&outer| outer != index).flat_map(|outer| due[outer].iter().copied()).collect();
         search.bounds.work += outer.len();
         due.push(transitions(&mut search, (&model.always, &outer), &state.edges, &mut warnings));
+        let written = &files.machine.states[index].contracts;
+        contract::violated(&mut search, &model.program.states[index].contracts, written, &mut warnings);
     }
     in_order(in_all_copies(files, &warnings))
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use crate::policy::ast::{
-    Argument, Connection, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition, Turn,
+    Argument, Connection, Contract, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition, Turn,
 };
 
 /// A set of used names.
@@ -59,12 +59,20 @@ impl<'a> Names<'a> {
         }
         self.transitions(&state.transitions);
         self.targets(&state.failsafes);
+        self.contracts(&state.contracts);
         for Connection { names, target, .. } in &state.connections {
             let within = Self::of(|within| {
                 within.give(names);
                 within.targets(std::slice::from_ref(target));
             });
             self.extend(&within);
+        }
+    }
+
+    pub(super) fn contracts(&mut self, contracts: &'a [Contract]) {
+        for Contract { condition, time, .. } in contracts {
+            self.expression(condition);
+            time.iter().for_each(|time| self.expression(time));
         }
     }
 

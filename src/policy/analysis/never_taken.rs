@@ -71,7 +71,7 @@ pub(super) fn comes_first(program: &Program, before: &Edge<'_>, edge: &Edge<'_>)
 }
 
 /// True if a transition leaves its state, so that the durations of the others begin again.
-fn leaves(program: &Program, edge: &Edge<'_>) -> bool {
+pub(super) fn leaves(program: &Program, edge: &Edge<'_>) -> bool {
     edge.leads_to().is_none_or(|target| !program.is_target_active(edge.from, target, target))
 }
 

@@ -69,6 +69,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     used.statements(&file.body);
     used.transitions(&file.always);
     used.targets(&file.failsafes);
+    used.contracts(&file.contracts);
     unread.extend(file.memory.iter().map(|(name, _)| name).filter(|name| !used.has(&name.text)));
     file.tests.iter().for_each(|test| used.expressions(&test.expectations));
     for name in unread {

@@ -28,10 +28,14 @@ pub(in crate::policy) enum Function {
     Cross,
     LowPass,
     Pid,
+    Previous,
+    Peak,
+    Settled,
+    PathLength,
 }
 
 /// Every function: its name, the function, its notation and its result.
-pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 25] = [
+pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 29] = [
     ("abs", Function::Abs, "abs(x)", "the absolute value of a number"),
     ("sign", Function::Sign, "sign(x)", "\u{2212}1, 0 or 1, the sign of a number"),
     (
@@ -87,6 +91,25 @@ pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 25] = [
         "pid(error, p, i, d, limit)",
         "the output of a PID controller, limited to \u{00b1} the limit. The integral does not change while the output is at the limit (anti-windup)",
     ),
+    (
+        "previous",
+        Function::Previous,
+        "previous(x)",
+        "a number or a vector as it was at the last earlier tick in which it was computed. At first, the value itself",
+    ),
+    ("peak", Function::Peak, "peak(x)", "the largest value of a number since the state was entered"),
+    (
+        "settled",
+        Function::Settled,
+        "settled(x, within, lasting)",
+        "true if a number has stayed within this distance of one value for this time",
+    ),
+    (
+        "path_length",
+        Function::PathLength,
+        "path_length(position)",
+        "the length of the path of a position since the state was entered",
+    ),
 ];
 
 /// The function with a name, and its notation.
@@ -110,6 +133,10 @@ impl Function {
             Self::Turn => "two angles",
             Self::Dot | Self::Cross => "two vectors",
             Self::LowPass => "a number and a frequency",
+            Self::Previous => "a number or a vector",
+            Self::Peak => "one number of any dimension",
+            Self::Settled => "two numbers of one dimension, and a time",
+            Self::PathLength => "a position",
             Self::Pid => {
                 "the error, gains for the error, its integral and its derivative, and the limit of the output, such that each gain \
              multiplied by its quantity has the dimension of the limit"

@@ -26,6 +26,8 @@ pub(in crate::policy) enum MemberSource {
     Contour,
     Body(BodyScalar),
     BodyPosition,
+    /// The component of a vector with this index. Its dimension is that of the vector.
+    Component(u16),
     /// The middle of the nose.
     Nose,
     /// The middle of the tail.
@@ -72,6 +74,12 @@ const fn scalar(name: &'static str, r#type: Type, quantity: WhiskerScalar, meani
 const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
     member(name, Type::POSITION, MemberSource::Vector(quantity), meaning)
 }
+
+/// A vector of plain numbers has components of this type.
+const VECTOR: [Member; 2] = [
+    member("x", Type::NUMBER, MemberSource::Component(0), "the first component of a vector"),
+    member("y", Type::NUMBER, MemberSource::Component(1), "the second component of a vector"),
+];
 
 const WHISKER: [Member; 14] = [
     scalar(
@@ -352,7 +360,8 @@ pub(in crate::policy) fn members(owner: Type) -> &'static [Member] {
         Type::Whisker => &WHISKER,
         Type::Contour => &CONTOUR,
         Type::Body => &BODY,
+        Type::Vector(_) => &VECTOR,
         Type::Run => &RUN,
-        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Vector(_) | Type::Monitor(_) => &[],
+        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Monitor(_) => &[],
     }
 }

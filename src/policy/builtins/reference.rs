@@ -56,7 +56,7 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
         row(&mut page, [&format!("`{name}`"), &units]);
     }
     page += "\
-| `vector`, `vector of length`, \u{2026} | two components, x and y, plain or with one dimension |
+| `vector`, `vector of length`, \u{2026} | two components `x` and `y`, plain or with one dimension |
 | `angular_speed / length`, `vector of length / time`, \u{2026} | products and quotients of dimensions |
 
 ## Names
@@ -65,6 +65,7 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
 |---|---|---|
 ";
     row(&mut page, ["`time`", &shown(Type::TIME), "the time since the start of the run"]);
+    row(&mut page, ["`state_time`", &shown(Type::TIME), "the time since the entry of the state that contains it"]);
     for (owner, prefix) in [(Type::Body, "body"), (Type::Whisker, "w"), (Type::Contour, "c"), (Type::Run, "run")] {
         page += match owner {
             Type::Body => "",

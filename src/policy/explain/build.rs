@@ -20,9 +20,14 @@ impl Builder<'_> {
     /// The condition of a guard. `None` for `after`.
     pub(super) fn condition(&self, guard: &machine::Guard) -> Option<Condition> {
         let machine::Guard::When { code, truth, .. } = guard else { return None };
+        Some(self.condition_in(code, *truth))
+    }
+
+    /// The condition that code computes into a register.
+    pub(super) fn condition_in(&self, code: &machine::Block, truth: Register) -> Condition {
         let code = self.program.code.get(code.start as usize..code.end as usize).unwrap_or_default();
-        let results = code.iter().filter_map(|&op| Some((result(op)?, op))).collect();
-        Some(self.node(&results, *truth, None, Negation::default()))
+        let results = code.iter().filter_map(|&op| Some((op.bool_result()?, op))).collect();
+        self.node(&results, truth, None, Negation::default())
     }
 
     /// The condition in a register. `outer` is the bool that it is a part of.
@@ -78,17 +83,4 @@ fn joined(parts: [Condition; 2], by_and: bool) -> Condition {
         part => vec![part],
     });
     if by_and { Condition::All(flat.collect()) } else { Condition::Any(flat.collect()) }
-}
-
-/// The result of an operation that gives a bool.
-fn result(op: Op) -> Option<Register> {
-    match op {
-        Op::And { to, .. }
-        | Op::Or { to, .. }
-        | Op::Not { to, .. }
-        | Op::Less { to, .. }
-        | Op::LessOrEqual { to, .. }
-        | Op::Equal { to, .. } => Some(to),
-        _ => None,
-    }
 }

@@ -11,9 +11,9 @@ mod variable;
 pub use condition::{Condition, Judged, Leaf};
 pub use variable::{Variable, VariableValue};
 
-use vibrissa_runtime::machine::{Program, TransitionId};
+use vibrissa_runtime::machine::{ContractId, Program, TransitionId};
 
-use crate::diagnostic::{Diagnostic, Position, Source};
+use crate::diagnostic::{Diagnostic, Position, Source, Span};
 
 use super::ast;
 use super::lower::{Lowered, Origins};
@@ -40,6 +40,10 @@ pub struct Explained {
     pub always: Vec<ExplainedTransition>,
     /// The transitions of each state, in the order of the text.
     pub states: Vec<Vec<ExplainedTransition>>,
+    /// The contracts of the machine that are not proved.
+    pub contracts: Vec<ExplainedContract>,
+    /// The contracts of each state that are not proved.
+    pub contracts_of_states: Vec<Vec<ExplainedContract>>,
     /// The memory of the machine.
     pub memory: Vec<Variable>,
     /// The arguments and the memory of each state.
@@ -63,7 +67,26 @@ pub struct ExplainedTransition {
     pub condition: Option<Condition>,
 }
 
+/// A contract with the condition of its violation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExplainedContract {
+    /// The contract as written, on one line.
+    pub text: String,
+    /// The file that contains it. `None` for the policy itself.
+    pub file: Option<String>,
+    /// Its position in the text of its file.
+    pub position: Position,
+    /// The condition of its violation.
+    pub violation: Condition,
+}
+
 impl Explained {
+    /// A contract by its identifier.
+    #[must_use]
+    pub fn contract(&self, id: ContractId) -> Option<&ExplainedContract> {
+        id.state.map_or(Some(&self.contracts), |state| self.contracts_of_states.get(state))?.get(id.index)
+    }
+
     /// A transition by its identifier.
     #[must_use]
     pub fn transition(&self, id: TransitionId) -> Option<&ExplainedTransition> {
@@ -88,10 +111,7 @@ pub fn explain(source: &Source) -> Result<Explained, Vec<Diagnostic>> {
             } else {
                 written.target.name.text.clone()
             },
-            file: match source.part_at(written.guard.span().start) {
-                0 => None,
-                part => Some(source.part_name(part).to_owned()),
-            },
+            file: file_of(&source, written.guard.span()),
             position: source.line_column(written.guard.span().start),
             condition: builder.condition(&compiled.guard),
         })
@@ -101,13 +121,36 @@ pub fn explain(source: &Source) -> Result<Explained, Vec<Diagnostic>> {
     let always = explained(&main.always, &lowered.program.always);
     let states = files.machine.states.iter().zip(&lowered.program.states);
     let states = states.map(|(written, compiled)| explained(&written.transitions, &compiled.transitions)).collect();
+    let contracts = |written: &[ast::Contract], compiled: &[vibrissa_runtime::machine::Contract]| {
+        let both = written.iter().zip(compiled);
+        both.map(|(written, compiled)| ExplainedContract {
+            text: compiled.text.to_string(),
+            file: file_of(&source, written.span),
+            position: source.line_column(written.span.start),
+            violation: builder.condition_in(&compiled.code, compiled.violated),
+        })
+        .collect::<Vec<_>>()
+    };
+    let own_contracts = contracts(&main.contracts, &lowered.program.contracts);
+    let both = files.machine.states.iter().zip(&lowered.program.states);
+    let contracts_of_states =
+        both.map(|(written, compiled)| contracts(&written.contracts, &compiled.contracts)).collect();
     let variables = |names: &[(String, super::types::Value)]| {
         names.iter().map(|name| Variable::new(name, &lowered.choices)).collect()
     };
     let memory = variables(&lowered.memory.machine);
     let memory_of_states = lowered.memory.states.iter().map(|names| variables(names)).collect();
     let Lowered { program, origins, .. } = lowered;
-    Ok(Explained { program, always, states, memory, memory_of_states, source, origins })
+    let contracts = own_contracts;
+    Ok(Explained { program, always, states, contracts, contracts_of_states, memory, memory_of_states, source, origins })
+}
+
+/// The name of the file that contains a span. `None` for the policy itself.
+fn file_of(source: &Source, span: Span) -> Option<String> {
+    match source.part_at(span.start) {
+        0 => None,
+        part => Some(source.part_name(part).to_owned()),
+    }
 }
 
 fn guard_text(source: &Source, guard: &ast::Guard) -> String {

@@ -81,7 +81,7 @@ pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
 }
 
 /// Length of a keyword at the beginning of `text` that is a name anywhere else: `contour` before a name or `of`,
-/// `points` after a number behind `of`, `apart` after a unit, and `on` and `tell` before a name.
+/// `points` after a number behind `of`, `apart` after a unit, `within` after a value, and `on` and `tell` before a name.
 fn contextual_word(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
     let word = text.split(|letter| !is_word(letter)).next().unwrap_or_default();
     let mut before = tokens.iter().rev().filter(|token| token.kind != Kind::Comment);
@@ -99,6 +99,10 @@ fn contextual_word(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
             next.starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && !is_keyword(next)
         }
         ("apart", Some(last)) => last.kind == Kind::Unit,
+        ("within", Some(last)) => {
+            matches!(last.kind, Kind::Number | Kind::Unit | Kind::Name)
+                || [")", "|", "true", "false"].contains(&last.text)
+        }
         _ => false,
     };
     is_word.then_some(word.len())

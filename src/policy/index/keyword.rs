@@ -89,7 +89,7 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 73] = [
+pub(super) const KEYWORDS: [Keyword; 77] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -175,10 +175,23 @@ pub(super) const KEYWORDS: [Keyword; 73] = [
     ),
     entry(
         "always",
-        ITEM,
+        ITEM_OR_STATE,
         "always when ${1:condition} -> ${2:Target}",
-        "A global transition. It belongs to every state and precedes the transitions of the state itself.",
+        "Outside of braces, a global transition. It belongs to every state and precedes the transitions of the state itself. With `within`, a contract: `always condition within time` is violated if the condition is false for that time.",
     ),
+    entry(
+        "assume",
+        ITEM_OR_STATE,
+        "assume ${1:condition}",
+        "A contract: the condition holds when the state is entered. It has no effect on the machine. Runs and the robot report a violation.",
+    ),
+    entry(
+        "never",
+        ITEM_OR_STATE,
+        "never ${1:condition}",
+        "A contract: the condition holds in no tick of the state. With `for`, it never holds for that time without interruption.",
+    ),
+    entry("within", INSIDE, "within ${1:1 s}", "The time after which the condition of a contract has to hold again."),
     entry(
         "failsafe",
         ITEM_OR_STATE,
@@ -323,6 +336,7 @@ pub(super) const KEYWORDS: [Keyword; 73] = [
     entry("false", TRUTH, "false", "False."),
     entry("body", VALUE, "body", "The platform."),
     entry("time", VALUE, "time", "The time since the start of the run."),
+    entry("state_time", VALUE, "state_time", "The time since the entry of the state that contains it."),
     entry("run", &[Position::Run], "run", "The whole run, in the expectations of a test."),
     entry(
         "resume",

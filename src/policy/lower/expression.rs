@@ -165,6 +165,7 @@ impl<'f> Compiler<'f> {
             (None, "body") => Value { r#type: Type::Body, register: 0 },
             (None, "run") if self.figures.is_some() => Value { r#type: Type::Run, register: 0 },
             (None, "time") => Value { r#type: Type::TIME, register: self.code.scalar(|to| Op::Time { to }) },
+            (None, "state_time") => Value { r#type: Type::TIME, register: self.state_time(name.span)? },
             (None, _) => {
                 self.unknown_name(scope, name);
                 return None;
@@ -214,7 +215,7 @@ impl<'f> Compiler<'f> {
             let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
             let mut diagnostic = did_you_mean(diagnostic, &name.text, members.iter().map(|member| member.name));
             if members.is_empty() {
-                diagnostic = diagnostic.hint("only whiskers, their contours and `body` have members");
+                diagnostic = diagnostic.hint("only whiskers, their contours, vectors and `body` have members");
             } else {
                 let known: Vec<&str> = members.iter().map(|member| member.name).collect();
                 diagnostic = diagnostic.hint(format!("{} has {}", value.r#type, known.join(", ")));
@@ -222,6 +223,9 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic);
             return None;
         };
+        if let (MemberSource::Component(part), Type::Vector(dimension), None) = (member.source, value.r#type, values) {
+            return Some(Value { r#type: Type::Scalar(dimension), register: value.register + part });
+        }
         self.member_value(scope, value, member, name, values)
     }
 
@@ -271,7 +275,7 @@ impl<'f> Compiler<'f> {
                 self.report_call(format!("`{}` takes no values", name.text), name.span);
                 return None;
             }
-            (MemberSource::Contour | MemberSource::At, ..) => whisker,
+            (MemberSource::Contour | MemberSource::At | MemberSource::Component(_), ..) => whisker,
             (MemberSource::Scalar(quantity), ..) => self.code.scalar(|to| Op::Whisker { to, whisker, quantity }),
             (MemberSource::Vector(quantity), ..) => self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity }),
             (MemberSource::Body(quantity), ..) => self.code.scalar(|to| Op::Body { to, quantity }),

@@ -95,6 +95,13 @@ impl<'f> Compiler<'f> {
                 let (a, b) = (register(0), register(1));
                 scalar(dimension, self.code.scalar(|to| Op::LowPass { to, a, b, memory }))
             }
+            (Function::Previous, &[Type::Scalar(_) | Type::Vector(_)]) => Some(self.previous(given[0])),
+            (Function::Peak, &[Type::Scalar(dimension)]) => scalar(dimension, self.peak(register(0))),
+            (Function::Settled, &[Type::Scalar(a), Type::Scalar(within), Type::TIME]) if a == within => {
+                let register = self.settled([0, 1, 2].map(register));
+                Some(Value { r#type: Type::Truth, register })
+            }
+            (Function::PathLength, &[Type::POSITION]) => scalar(Dimension::LENGTH, self.path_length(register(0))),
             (
                 Function::Pid,
                 &[Type::Scalar(error), Type::Scalar(p), Type::Scalar(i), Type::Scalar(d), Type::Scalar(limit)],
@@ -121,7 +128,7 @@ impl<'f> Compiler<'f> {
     }
 
     /// New registers for the memory of a stateful function. The entry of the current state resets them.
-    fn memory(&mut self, count: u16) -> u16 {
+    pub(super) fn memory(&mut self, count: u16) -> u16 {
         let memory = self.code.allocate(count);
         self.memories.push((memory, count));
         memory

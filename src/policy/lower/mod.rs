@@ -6,6 +6,7 @@
 mod call;
 mod code;
 mod contour;
+mod contract;
 mod enumeration;
 mod exit;
 mod expression;
@@ -18,6 +19,7 @@ mod needs;
 mod parameter;
 mod property;
 mod scope;
+mod signal;
 mod statement;
 mod structure;
 mod target;
@@ -28,6 +30,7 @@ use std::collections::{HashMap, HashSet};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use vibrissa_runtime::machine::{Program, Register};
 
+use super::analysis::ProvedContract;
 use super::ast::{Argument, Enumeration, Expression, Name, Statement, TypeName};
 use super::load::Files;
 use super::suggestion::did_you_mean;
@@ -55,6 +58,8 @@ pub(super) struct Lowered {
     pub(super) memory: Memory,
     /// The expressions whose values are in the registers.
     pub(super) origins: Origins,
+    /// The contracts that the analysis has proved. Empty before it.
+    pub(super) proved: Vec<ProvedContract>,
 }
 
 /// The values that a running machine keeps from tick to tick: names, types and registers.
@@ -98,7 +103,8 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
             let known = |(name, meaning): (String, Meaning)| Some((name, meaning.filter(has_register)?));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
             let (memory, origins) = (compiler.memory, compiler.code.origins);
-            Ok(Lowered { program, tests, arguments: arguments.collect(), choices, memory, origins })
+            let arguments = arguments.collect();
+            Ok(Lowered { program, tests, arguments, choices, memory, origins, proved: Vec::new() })
         }
         _ => Err(diagnostics),
     }
@@ -180,6 +186,10 @@ struct Compiler<'f> {
     commandless: Option<Commandless>,
     /// Span of the use of the outermost law that is being inlined.
     outer_use: Option<Span>,
+    /// The register of the time at which the current state was entered. `None` outside of states.
+    entered: Option<Register>,
+    /// Number of contracts.
+    contract_count: usize,
     /// Current depth in the syntax tree, and number of visited nodes.
     depth: usize,
     work: usize,
@@ -212,6 +222,8 @@ impl<'f> Compiler<'f> {
             tests: Vec::new(),
             commandless: None,
             outer_use: None,
+            entered: None,
+            contract_count: 0,
             depth: 0,
             work: 0,
             oversized_item: None,

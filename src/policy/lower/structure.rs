@@ -8,7 +8,7 @@ use crate::policy::expand::Expanded;
 use crate::policy::load::Files;
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
-use vibrissa_runtime::machine::{self, Block, NESTING_LIMIT, Op, Program};
+use vibrissa_runtime::machine::{self, Block, NESTING_LIMIT, Op, Program, Register};
 use vibrissa_runtime::signal::MAX_WHISKERS;
 
 use super::hierarchy::Hierarchy;
@@ -76,6 +76,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
     let fallback = compiler.failsafe(&scope, None, &file.failsafes);
+    let contracts = compiler.contracts(&scope, &file.contracts);
     let states = compiler.lower_states(&mut timers);
     let initial = compiler.initial(file);
     let contact_estimators = compiler.contact_estimators(file);
@@ -102,6 +103,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         monitors,
         body,
         always,
+        contracts,
         fallback,
         code: std::mem::take(&mut compiler.code.ops),
         initial_registers: std::mem::take(&mut compiler.code.initial),
@@ -267,12 +269,14 @@ impl<'f> Compiler<'f> {
         // A state's own memory hides that of outer states in the whole state, also before its declaration.
         self.declaring = &state.memory;
         let mut known = scope.without(&state.memory);
+        // This code is discarded.
+        self.entered = Some(0);
         for (name, value) in &state.memory {
             let memory = self.remember(&known, value);
             self.bind(scope, start, name, memory);
             known.insert(name, memory);
         }
-        self.declaring = &[];
+        (self.declaring, self.entered) = (&[], None);
     }
 
     /// Lowers all declared states.
@@ -312,9 +316,13 @@ impl<'f> Compiler<'f> {
 
     fn state(&mut self, index: usize, state: &'f State, scope: &mut Scope<'f>, timers: &mut usize) -> machine::State {
         self.memories.clear();
+        // The optimiser removes it from states that do not read it.
+        let entered = self.code.allocate(1);
+        self.entered = Some(entered);
         self.state_body = &state.body;
         let transitions = self.transitions(scope, Some(index), &state.transitions, timers);
         let fallback = self.failsafe(scope, Some(index), &state.failsafes);
+        let contracts = self.contracts(scope, &state.contracts);
         self.state_body = &[];
         let start = self.code.here();
         self.statements(scope, &state.body);
@@ -326,18 +334,19 @@ impl<'f> Compiler<'f> {
         let start = self.code.here();
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
-        let entry = self.entry(scope, state);
-        self.commandless = None;
+        let entry = self.entry(scope, state, entered);
+        (self.commandless, self.entered) = (None, None);
         self.check_size(state.name.span);
         let name = Arc::from(self.hierarchy.path(index));
-        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, fallback }
+        machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, contracts, fallback }
     }
 
     /// Lowers the entry of a state.
-    fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State) -> Block {
+    fn entry(&mut self, scope: &mut Scope<'f>, state: &'f State, entered: Register) -> Block {
         self.commandless =
             Some(Commandless { construct: "entering a state", hint: COMMAND_ADVICE, allows_records: true });
         let start = self.code.here();
+        self.code.push(Op::Time { to: entered });
         self.set_memory(scope, &state.memory);
         for (memory, count) in std::mem::take(&mut self.memories) {
             self.code.push(Op::Clear { memory, count });

@@ -49,7 +49,8 @@ impl<'f> Compiler<'f> {
         };
         let settings = test.settings.iter().filter_map(|setting| self.setting(setting, parameters)).collect();
         let expectations = test.expectations.iter().filter_map(|truth| self.expectation(truth)).collect();
-        Some(PolicyTest { title: test.title.text.clone(), scenes: scenes?, settings, expectations })
+        let (title, title_span) = (test.title.text.clone(), test.title.span);
+        Some(PolicyTest { title, title_span, scenes: scenes?, settings, expectations })
     }
 
     fn setting(&mut self, (name, value): &'f (Name, Setting), parameters: &[Parameter]) -> Option<(usize, f64)> {

@@ -26,8 +26,13 @@ impl Draft {
         self.program.initial_registers.len()
     }
 
-    /// Registers that transitions read.
+    /// Registers that transitions and contracts read.
     pub(super) fn read_by_guards(&self) -> impl Iterator<Item = Register> {
+        let contracts =
+            self.program.contracts.iter().chain(self.program.states.iter().flat_map(|state| &state.contracts));
+        let of_contracts = contracts.flat_map(|contract| {
+            [Some(contract.violated), contract.lasting, contract.margin.map(|(register, _)| register)]
+        });
         let of_states = self.program.states.iter().flat_map(|state| &state.transitions);
         self.program
             .always
@@ -37,6 +42,7 @@ impl Draft {
                 Guard::When { truth, lasting, .. } => [Some(truth), lasting.map(|(duration, _)| duration)],
                 Guard::After { time, .. } => [Some(time), None],
             })
+            .chain(of_contracts)
             .flatten()
     }
 
@@ -92,12 +98,14 @@ fn runs(program: &Program) -> Vec<std::ops::Range<usize>> {
     };
     let mut blocks = of_list(&program.always);
     blocks.extend(program.fallback.iter().map(of_target));
+    blocks.extend(program.contracts.iter().map(|contract| contract.code.clone()));
     blocks.extend([&program.entry, &program.monitors, &program.body].map(Block::clone));
     for state in &program.states {
         blocks.extend(of_list(&state.transitions));
         blocks.extend([&state.entry, &state.body, &state.exit].map(Block::clone));
         blocks.extend(state.initial.iter().map(|(_, values)| values.clone()));
         blocks.extend(state.fallback.iter().map(of_target));
+        blocks.extend(state.contracts.iter().map(|contract| contract.code.clone()));
     }
     blocks.retain(|block| !block.is_empty());
     blocks.sort_by_key(|block| block.start);
@@ -120,12 +128,14 @@ fn blocks(program: &mut Program) -> Vec<&mut Block> {
     }
     let mut blocks: Vec<&mut Block> = of_list(&mut program.always).collect();
     blocks.extend(program.fallback.as_mut().and_then(of_target));
+    blocks.extend(program.contracts.iter_mut().map(|contract| &mut contract.code));
     blocks.extend([&mut program.entry, &mut program.monitors, &mut program.body]);
     for state in &mut program.states {
         blocks.extend(of_list(&mut state.transitions));
         blocks.extend([&mut state.entry, &mut state.body, &mut state.exit]);
         blocks.extend(state.initial.as_mut().map(|(_, values)| values));
         blocks.extend(state.fallback.as_mut().and_then(of_target));
+        blocks.extend(state.contracts.iter_mut().map(|contract| &mut contract.code));
     }
     blocks
 }

@@ -5,14 +5,14 @@ use crate::policy::ast::{Behaviour, Connection, Exit, Expression, Monitor, Name,
 use crate::policy::grammar::Rule;
 use crate::policy::parse_tree::Pair;
 
-use super::{Parsed, Reader, arguments, block, internal, law, statement, text, transition, values};
+use super::{Parsed, Reader, arguments, block, contract, internal, law, statement, text, transition, values};
 
 /// Adds a state and its inner states to `states`.
 pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
     let (name, given) = (reader.name()?, arguments(reader)?);
     let behaviour = if reader.has(Rule::application) { Some(step(reader.take(Rule::application)?)?) } else { None };
     let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (initial, transitions, failsafes) = (Vec::new(), Vec::new(), Vec::new());
+    let (initial, transitions, failsafes, contracts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let own = states.len();
     states.push(State {
         name,
@@ -25,6 +25,7 @@ pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut
         body,
         transitions,
         failsafes,
+        contracts,
         behaviour,
         connections: Vec::new(),
         exits: Vec::new(),
@@ -40,6 +41,7 @@ pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut
             Rule::start => state.initial.push(step(pair)?),
             Rule::when | Rule::after => state.transitions.push(transition(pair)?),
             Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
+            Rule::assume | Rule::never | Rule::recurring => state.contracts.push(contract(pair)?),
             Rule::memory => state.memory.push(variable(&mut Reader::new(pair))?),
             Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
             Rule::connection => state.connections.push(connection(&mut Reader::new(pair))?),

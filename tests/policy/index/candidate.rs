@@ -80,7 +80,8 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
         labels(&writing("let x = body.\u{a7}")),
         ["yaw", "position", "blocked", "shortfall", "nose", "tail", "length", "width", "nose_width", "tail_width"]
     );
-    for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}", "let x = w.tip.\u{a7}"] {
+    assert_eq!(labels(&writing("let x = w.tip.\u{a7}")), ["x", "y"]);
+    for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}"] {
         assert_eq!(labels(&writing(place)), [""; 0], "{place}");
     }
 }
@@ -118,7 +119,11 @@ fn a_statement_a_transition_and_an_item_begin_with_their_words() {
         ("\u{a7}", "when", "param"),
         ("hold\n  \u{a7}", "steer", "law"),
         ("hold\n  st\u{a7}", "steer", "param"),
-        ("hold\n  st\u{a7}", "state", "always"),
+        ("hold\n  st\u{a7}", "state", "law"),
+        ("hold\n  \u{a7}", "never", "use"),
+        ("never w.touching \u{a7}", "for", "->"),
+        ("always w.touching \u{a7}", "within", "->"),
+        ("}\n\n\u{a7}", "assume", "when"),
         ("hold\n  \u{a7}", "failsafe", "use"),
         ("if true {\n \u{a7}", "record", "when"),
         ("entry {\n \u{a7}", "set", "when"),

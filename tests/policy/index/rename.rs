@@ -25,7 +25,12 @@ fn nameless(mut program: Program) -> String {
         parameter.name.clear();
         parameter.choices.iter_mut().for_each(String::clear);
     }
-    program.states.iter_mut().for_each(|state| state.name = "".into());
+    let mut contracts: Vec<_> = program.contracts.iter_mut().collect();
+    for state in &mut program.states {
+        state.name = "".into();
+        contracts.extend(&mut state.contracts);
+    }
+    contracts.into_iter().for_each(|contract| contract.text = "".into());
     format!("{program:?}")
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod artifact;
 mod behaviour;
+mod contract;
 mod memory;
 mod monitor;
 mod nesting;

@@ -29,7 +29,7 @@ impl Value {
         if let Self::Truth(truth) = self { truth } else { panic!("{self:?} is no truth") }
     }
 
-    fn vector(self) -> Vector2 {
+    pub(crate) fn vector(self) -> Vector2 {
         if let Self::Vector(vector) = self { vector } else { panic!("{self:?} is no vector") }
     }
 
@@ -118,6 +118,11 @@ impl Interpreter<'_> {
             }
             Expression::Body("shortfall") => Value::Number(self.senses.body(BodyScalar::Shortfall)),
             Expression::Body(_) => Value::Vector(self.senses.body_position()),
+            Expression::Member(owner, part @ ("x" | "y"), _) => {
+                self.seen("a component", Some(place.part));
+                let vector = self.value(owner, place).vector();
+                Value::Number(if *part == "x" { vector.x } else { vector.y })
+            }
             Expression::Member(owner, member, values) => {
                 let whisker = self.value(owner, place).whisker();
                 let values = self.values(values, place);
@@ -210,6 +215,23 @@ impl Interpreter<'_> {
         let number = |index: usize| values[index].number();
         Value::Number(match name {
             "time" => self.senses.time(),
+            "state_time" => {
+                self.seen("time in a state", Some(place.part));
+                self.senses.time() - self.entered_at[place.sees.unwrap()]
+            }
+            "previous" | "peak" | "settled" | "path_length" => {
+                let now = self.senses.time();
+                let which = place.uses.iter().copied().chain([site]).collect();
+                let signal = self.signals.entry((place.stands_in, which)).or_default();
+                let (what, output) = match name {
+                    "previous" => ("previous", signal.previous(now, values[0])),
+                    "peak" => ("peak", Value::Number(signal.peak(number(0)))),
+                    "settled" => ("settled", Value::Truth(signal.settled(now, number(0), number(1), number(2)))),
+                    _ => ("path_length", Value::Number(signal.path_length(values[0].vector()))),
+                };
+                self.seen(what, Some(place.part));
+                return output;
+            }
             "abs" => number(0).abs(),
             "sign" if number(0) == 0.0 => 0.0,
             "sign" => number(0).signum(),

@@ -4,12 +4,12 @@ use proptest::prelude::*;
 
 use super::grow::Grower;
 use super::tree::{
-    Arguments, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Statement, Steer, Target, Type,
+    Arguments, Contract, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Statement, Steer, Target, Type,
 };
 
 /// Programs that are well typed; some go round within a tick, which the compiler refuses.
 pub(crate) fn programs() -> impl Strategy<Value = Program> {
-    prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 56)
+    prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 62)
         .prop_map(|parts| Grower::new(&parts).grow_program())
 }
 
@@ -85,6 +85,7 @@ impl Grower<'_> {
         if self.pick(4) > 0 {
             self.program.failsafe = Some(self.target(None));
         }
+        self.program.contracts = self.contracts();
         self.program
     }
 
@@ -175,8 +176,10 @@ impl Grower<'_> {
         let mut memory = Vec::new();
         for index in first..names.len() {
             self.hidden = names[index..].to_vec();
+            self.in_state = true;
             let r#type = self.one_of(&Type::ALL);
             let value = self.expression(r#type, 2);
+            self.in_state = false;
             self.hidden.clear();
             self.know(&names[index], r#type, true);
             memory.push((names[index].clone(), r#type, value));
@@ -200,6 +203,7 @@ impl Grower<'_> {
     }
 
     fn grow_state(&mut self, index: usize) {
+        self.in_state = true;
         self.next_part();
         let inner: Vec<usize> =
             (0..self.program.states.len()).filter(|&state| self.program.states[state].parent == Some(index)).collect();
@@ -209,6 +213,7 @@ impl Grower<'_> {
         });
         let rules = (0..self.pick(4)).map(|_| self.rule(Some(index))).collect();
         let failsafe = (self.pick(3) > 0).then(|| self.target(Some(index)));
+        let contracts = self.contracts();
         self.next_part();
         let entry = self.block(May { command: false, set: true }, 2);
         self.next_part();
@@ -222,7 +227,23 @@ impl Grower<'_> {
         }
         self.scope.truncate(known);
         let state = &mut self.program.states[index];
-        *state = State { initial, entry, exit, body, rules, failsafe, ..state.clone() };
+        *state = State { initial, entry, exit, body, rules, failsafe, contracts, ..state.clone() };
+        self.in_state = false;
+    }
+
+    fn contracts(&mut self) -> Vec<Contract> {
+        self.next_part();
+        (0..self.pick(3)).map(|_| self.contract()).collect()
+    }
+
+    fn contract(&mut self) -> Contract {
+        let condition = self.expression(Type::Truth, 2);
+        match self.pick(4) {
+            0 => Contract::Assume(condition),
+            1 => Contract::Never(condition, None),
+            2 => Contract::Never(condition, Some(self.time())),
+            _ => Contract::Always(condition, self.time()),
+        }
     }
 
     fn rule(&mut self, from: Option<usize>) -> Rule {

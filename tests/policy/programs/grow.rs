@@ -20,6 +20,8 @@ pub(crate) struct Grower<'g> {
     pub(crate) scope: Vec<Known>,
     /// Names that a state gives, and that mean nothing while what they begin with is grown.
     pub(crate) hidden: Vec<String>,
+    /// Whether a part of a state grows, which knows its time.
+    pub(crate) in_state: bool,
     sites: usize,
 }
 
@@ -49,6 +51,7 @@ impl<'g> Grower<'g> {
             program: Program::default(),
             scope: Vec::new(),
             hidden: Vec::new(),
+            in_state: false,
             sites: 0,
         }
     }
@@ -180,6 +183,7 @@ impl<'g> Grower<'g> {
             Type::Length => self.of_whisker(&["length", "tip_spread"]),
             Type::Angle if self.pick(3) == 0 => Expression::Body("yaw"),
             Type::Angle => self.of_whisker(&["deflection", "yaw"]),
+            Type::Time if self.in_state && self.pick(2) == 0 => self.call("state_time", Vec::new()),
             Type::Time => self.call("time", Vec::new()),
             Type::Truth if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "ready"),
             Type::Truth if self.pick(3) == 0 => Expression::Body("blocked"),
@@ -232,6 +236,11 @@ impl<'g> Grower<'g> {
             8 => self.function("min", &[r#type; 2], depth),
             9 => self.function("max", &[r#type; 2], depth),
             10 => self.function("clamp", &[r#type; 3], depth),
+            11 | 12 => {
+                let name = self.one_of(&["previous", "peak"]);
+                let value = self.filtered(r#type, depth);
+                self.call(name, vec![value])
+            }
             _ => {
                 let values = vec![self.filtered(r#type, depth), self.quantity(Type::Frequency)];
                 self.call("lowpass", values)
@@ -267,9 +276,15 @@ impl<'g> Grower<'g> {
                 let name = self.one_of(&["dot", "cross"]);
                 self.function(name, &[Type::Vector; 2], depth)
             }
+            (Type::Number, 5) if self.pick(2) == 0 => self.component(Type::Vector, depth),
             (Type::Number, 5) => Expression::Norm(Box::new(self.expression(Type::Vector, depth))),
             (Type::Number, _) => self.pid([Type::Number, Type::Number], "", "Hz", "s", depth),
             (Type::Length, 0..=3) => Expression::Norm(Box::new(self.expression(Type::Place, depth))),
+            (Type::Length, 4) => self.component(Type::Place, depth),
+            (Type::Length, 5) => {
+                let value = self.filtered(Type::Place, depth);
+                self.call("path_length", vec![value])
+            }
             (Type::Length, _) => self.binary("*", Type::Speed, Type::Time, depth),
             (Type::Angle, 0..=1) => self.function("angle", &[Type::Vector], depth),
             (Type::Angle, 2..=3) => self.function("turn", &[Type::Angle; 2], depth),
@@ -297,7 +312,11 @@ impl<'g> Grower<'g> {
 
     fn vector(&mut self, r#type: Type, depth: u8) -> Expression {
         let is_place = r#type == Type::Place;
-        match self.pick(11) {
+        match self.pick(12) {
+            11 => {
+                let value = self.filtered(r#type, depth);
+                self.call("previous", vec![value])
+            }
             0 => self.binary("+", r#type, r#type, depth),
             1 => self.binary("-", r#type, r#type, depth),
             2 => self.binary("*", Type::Number, r#type, depth),
@@ -318,13 +337,29 @@ impl<'g> Grower<'g> {
         }
     }
 
+    fn component(&mut self, of: Type, depth: u8) -> Expression {
+        let name = self.one_of(&["x", "y"]);
+        Expression::Member(Box::new(self.expression(of, depth)), name, Vec::new())
+    }
+
+    /// A time of some ticks.
+    fn one_of_times(&mut self) -> Expression {
+        Expression::Quantity(self.one_of(&["20", "50", "100"]), "ms")
+    }
+
     fn at(&mut self, owner: Type, members: &[&'static str], value: Type, depth: u8) -> Expression {
         let (owner, value) = (self.expression(owner, depth), self.expression(value, depth));
         Expression::Member(Box::new(owner), self.one_of(members), vec![value])
     }
 
     fn truth(&mut self, depth: u8) -> Expression {
-        match self.pick(9) {
+        match self.pick(10) {
+            9 => {
+                let scalar = self.one_of(&SCALARS);
+                let within = self.expression(scalar, 0);
+                let values = vec![self.filtered(scalar, depth), within, self.one_of_times()];
+                self.call("settled", values)
+            }
             0..=2 => {
                 let (sign, scalar) = (self.one_of(&["<", "<=", ">", ">=", "==", "!="]), self.one_of(&SCALARS));
                 self.binary(sign, scalar, scalar, depth)

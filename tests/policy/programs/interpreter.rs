@@ -7,7 +7,8 @@ use vibrissa_runtime::machine::{Action, ActionPart, Cause, Failure, NonFinite, S
 
 use super::evaluate::{Place, Value};
 use super::filter::Filter;
-use super::tree::{Guard, Monitor, Program, Rule, Target};
+use super::signal::Signal;
+use super::tree::{Contract, Guard, Monitor, Program, Rule, Target};
 use crate::common::Script;
 
 /// What a tick gave.
@@ -17,6 +18,8 @@ pub(crate) struct Done {
     pub(crate) state: String,
     pub(crate) end: Option<End>,
     pub(crate) failsafe: Option<(String, Cause)>,
+    /// The violated contracts, in the order in which they are looked at: their states and texts.
+    pub(crate) violated: Vec<(String, String)>,
 }
 
 /// How a machine ended its run.
@@ -35,14 +38,20 @@ pub(crate) struct Interpreter<'p> {
     pub(crate) own: HashMap<String, Value>,
     /// By the state in which it stands and the uses that lead to it.
     pub(crate) filters: HashMap<(Option<usize>, Vec<usize>), Filter>,
+    /// The same for what remembers a signal.
+    pub(crate) signals: HashMap<(Option<usize>, Vec<usize>), Signal>,
     /// From the outermost to the innermost.
     active: Vec<usize>,
-    entered_at: Vec<f64>,
+    pub(crate) entered_at: Vec<f64>,
     /// Of a rule, since when its condition has held.
     since: HashMap<(Option<usize>, usize), f64>,
     /// For every state, the one in it that was active last.
     last: HashMap<usize, usize>,
     end: Option<End>,
+    /// The contracts that this tick has violated.
+    violated: Vec<(String, String)>,
+    /// Of a contract, since when it has not been as it should.
+    failing_since: HashMap<(Option<usize>, usize), f64>,
     /// What was executed, and as part of what.
     pub(crate) executed: BTreeSet<(&'static str, &'static str)>,
 }
@@ -58,11 +67,14 @@ impl<'p> Interpreter<'p> {
             kept: vec![HashMap::new(); program.states.len()],
             own: HashMap::new(),
             filters: HashMap::new(),
+            signals: HashMap::new(),
             active: Vec::new(),
             entered_at: vec![0.0; program.states.len()],
             since: HashMap::new(),
             last: HashMap::new(),
             end: None,
+            violated: Vec::new(),
+            failing_since: HashMap::new(),
             executed: BTreeSet::new(),
         }
     }
@@ -74,6 +86,7 @@ impl<'p> Interpreter<'p> {
 
     pub(crate) fn tick(&mut self) -> Done {
         let mut failsafe = None;
+        self.violated.clear();
         let action = match &self.end {
             Some(_) => Action::Stop,
             None => self.try_tick(&mut failsafe).unwrap_or_else(|end| {
@@ -86,7 +99,7 @@ impl<'p> Interpreter<'p> {
             Some(End::Failure(_)) => "Failure".to_owned(),
             Some(End::Success(_)) => "Success".to_owned(),
         };
-        Done { action: Some(action), state, end: self.end.clone(), failsafe }
+        Done { action: Some(action), state, end: self.end.clone(), failsafe, violated: self.violated.clone() }
     }
 
     fn innermost(&self) -> usize {
@@ -113,6 +126,7 @@ impl<'p> Interpreter<'p> {
             self.run(body, &mut Place::of_monitor(false, arguments, values));
         }
         if self.active.is_empty() {
+            self.look_at(None, true);
             self.enter(0, false);
         }
         let mut due = self.due(None);
@@ -126,6 +140,10 @@ impl<'p> Interpreter<'p> {
             self.seen("a chain", (taken == 1).then_some("a tick"));
             self.seen("a transition", Some(if from.is_some() { "a state" } else { "the machine" }));
             self.take(from, target)?;
+        }
+        self.look_at(None, false);
+        for state in self.active.clone() {
+            self.look_at(Some(state), false);
         }
         self.run_own();
         match self.act(0) {
@@ -249,11 +267,48 @@ impl<'p> Interpreter<'p> {
         self.entered_at[state] = self.senses.time();
         self.since.retain(|(of, _), _| *of != Some(state));
         self.filters.retain(|(of, _), _| *of != Some(state));
+        self.signals.retain(|(of, _), _| *of != Some(state));
         for (name, _, value) in &self.program.states[state].memory {
             let value = self.value(value, &mut Place::new(Some(state), "a memory"));
             self.kept[state].insert(name.clone(), value);
         }
         self.run(&self.program.states[state].entry, &mut Place::new(Some(state), "an entry"));
+        self.failing_since.retain(|(of, _), _| *of != Some(state));
+        self.look_at(Some(state), true);
+    }
+
+    /// Looks at the contracts of a state or of the machine: at what they assume when it is entered, or else at the others.
+    fn look_at(&mut self, of: Option<usize>, is_entered: bool) {
+        let program = self.program;
+        let contracts = of.map_or(&program.contracts, |state| &program.states[state].contracts);
+        let now = self.senses.time();
+        for (index, contract) in contracts.iter().enumerate() {
+            if matches!(contract, Contract::Assume(_)) != is_entered {
+                continue;
+            }
+            let mut place = Place::new(of, "a contract");
+            let (is_failing, time) = match contract {
+                Contract::Assume(condition) => (!self.value(condition, &mut place).truth(), None),
+                Contract::Never(condition, time) => (self.value(condition, &mut place).truth(), time.as_ref()),
+                Contract::Always(condition, time) => (!self.value(condition, &mut place).truth(), Some(time)),
+            };
+            let time = time.map(|time| self.value(time, &mut place).number());
+            if !is_failing {
+                self.failing_since.remove(&(of, index));
+                continue;
+            }
+            let since = *self.failing_since.entry((of, index)).or_insert(now);
+            if time.is_none_or(|time| now - since >= time - SLACK) {
+                let kind = match contract {
+                    Contract::Assume(_) => "assume",
+                    Contract::Never(_, None) => "never",
+                    Contract::Never(..) => "never for",
+                    Contract::Always(..) => "always",
+                };
+                self.seen(kind, Some(if of.is_some() { "a state" } else { "the machine" }));
+                self.violated.push((of.map_or_else(String::new, name), shown(&contract.text())));
+            }
+        }
     }
 
     /// Runs what the machine itself does, which gives no command.
@@ -304,6 +359,11 @@ impl<'p> Interpreter<'p> {
         let action = self.act(done).map_err(failure)?;
         Ok(action.unwrap_or(Action::Hold))
     }
+}
+
+/// The beginning of the text of a contract, which a program may cut.
+pub(crate) fn shown(text: &str) -> String {
+    text.chars().take(100).collect()
 }
 
 fn name(state: usize) -> String {

@@ -7,6 +7,7 @@ mod generate;
 mod grow;
 mod interpreter;
 mod side_by_side;
+mod signal;
 mod text;
 mod tree;
 mod work;

@@ -8,11 +8,11 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::Vector2;
-use vibrissa::policy::compile;
-use vibrissa_runtime::machine::{self, Action, Machine};
+use vibrissa::policy::{compile, compile_with_warnings};
+use vibrissa_runtime::machine::{self, Action, Machine, Observer, ViolatedContract};
 
 use super::generate::programs;
-use super::interpreter::{Done, End, Interpreter};
+use super::interpreter::{Done, End, Interpreter, shown};
 use super::tree::Program;
 use crate::common::{Feel, Script};
 
@@ -30,6 +30,29 @@ prop_compose! {
     ) -> Feel {
         Feel { touching, ready, deflection, side: if is_left { 1.0 } else { -1.0 }, sense, tangent: Vector2::new(x, y) }
     }
+}
+
+prop_compose! {
+    /// What a whisker feels if its readings are valid, and agree with one another.
+    fn valid_feel()(
+        (touching, ready, is_left, is_forward) in any::<(bool, bool, bool, bool)>(),
+        (angle, towards) in (1e-6..0.01_f64, -3.0..3.0_f64),
+    ) -> Feel {
+        let (side, sense) = (if is_left { 1.0 } else { -1.0 }, if is_forward { 1.0 } else { -1.0 });
+        Feel {
+            touching,
+            ready,
+            deflection: angle * side * sense,
+            side,
+            sense: if touching { sense } else { 0.0 },
+            tangent: Vector2::new(towards.cos(), towards.sin()),
+        }
+    }
+}
+
+/// Some ticks of three whiskers with valid readings.
+fn valid_scripts() -> impl Strategy<Value = Script> {
+    prop::collection::vec(prop::collection::vec(valid_feel(), 3), 1..25).prop_map(Script::new)
 }
 
 /// Some ticks of three whiskers, most of which come late by some milliseconds.
@@ -52,9 +75,20 @@ pub(crate) fn machine(text: &str) -> Option<machine::Program> {
     }
 }
 
+/// The violated contracts of a tick.
+#[derive(Default)]
+struct Violations(Vec<(Option<usize>, String)>);
+
+impl Observer for Violations {
+    fn violated(&mut self, violated: &ViolatedContract<'_>) {
+        self.0.push((violated.id.state, shown(&violated.contract.text)));
+    }
+}
+
 /// What a machine does in a tick.
 fn done(machine: &mut Machine, script: &mut Script) -> Done {
-    let tick = machine.tick(script);
+    let mut seen = Violations::default();
+    let tick = machine.tick_observed(script, &mut seen);
     let name = |state: usize| machine.program().states[state].name.to_string();
     Done {
         action: Some(tick.action),
@@ -64,7 +98,18 @@ fn done(machine: &mut Machine, script: &mut Script) -> Done {
             (None, success) => success.map(|reason| End::Success(reason.to_owned())),
         },
         failsafe: tick.fallback.map(|failsafe| (name(failsafe.left), failsafe.cause)),
+        // The contracts of a state around all others are those of the machine.
+        violated: seen
+            .0
+            .into_iter()
+            .map(|(state, text)| (state.map_or_else(String::new, name).replace("Whole", ""), text))
+            .collect(),
     }
+}
+
+/// The name of a state of a machine; empty for the machine itself.
+fn state_name(machine: &Machine, state: Option<usize>) -> String {
+    state.map_or_else(String::new, |state| machine.program().states[state].name.to_string())
 }
 
 /// Runs a machine and the program that it was compiled from side by side. What was executed, and as part of what.
@@ -75,13 +120,18 @@ fn run_both(
 ) -> Result<BTreeSet<(&'static str, &'static str)>, TestCaseError> {
     let mut machine = Machine::new(Arc::new(compiled));
     let mut interpreter = Interpreter::new(program, script.clone());
+    // Proofs are about valid readings, and the others may violate a contract that is not watched.
+    let watched: BTreeSet<(String, String)> =
+        machine.contracts().map(|one| (state_name(&machine, one.state), shown(&one.contract.text))).collect();
     let (mut steers, mut lasted) = (0, 0);
     for now in 0..script.ticks.len() {
         (script.now, interpreter.senses.now) = (now, now);
         let found = done(&mut machine, &mut script);
         steers += usize::from(matches!(found.action, Some(Action::Steer { .. })));
         lasted += usize::from(found.end.is_none());
-        prop_assert_eq!(&found, &interpreter.tick(), "tick {} of\n{}", now, program.text());
+        let mut expected = interpreter.tick();
+        expected.violated.retain(|violated| watched.contains(violated));
+        prop_assert_eq!(&found, &expected, "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.recorded, &interpreter.senses.recorded, "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.positions, &interpreter.senses.positions, "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.marked, &interpreter.senses.marked, "tick {} of\n{}", now, program.text());
@@ -106,6 +156,20 @@ proptest! {
     }
 
     #[test]
+    fn no_run_with_valid_readings_violates_a_proved_contract(program in programs(), script in valid_scripts()) {
+        let source = Source::new("program.fsm", program.text());
+        let Ok(compiled) = compile_with_warnings(&source) else { return Err(TestCaseError::reject("goes round")) };
+        let proved: BTreeSet<(String, String)> =
+            compiled.proved.iter().map(|one| (one.state.clone().unwrap_or_default(), shown(&one.text))).collect();
+        let mut interpreter = Interpreter::new(&program, script.clone());
+        for now in 0..script.ticks.len() {
+            interpreter.senses.now = now;
+            let violated = interpreter.tick().violated;
+            prop_assert!(violated.iter().all(|one| !proved.contains(one)), "tick {} of\n{}", now, source.text);
+        }
+    }
+
+    #[test]
     fn what_the_machine_remembers_and_does_is_what_a_state_around_all_others_would(
         program in programs(), script in scripts(),
     ) {
@@ -127,7 +191,7 @@ proptest! {
 }
 
 /// What programs do, and as part of what.
-const DONE: [(&str, &[&str]); 43] = [
+const DONE: [(&str, &[&str]); 53] = [
     ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
     (
         "a unit with a factor",
@@ -188,6 +252,12 @@ const DONE: [(&str, &[&str]); 43] = [
         ],
     ),
     ("pid", &["a body", "a law", "a derived value", "an if", "an entry", "an exit", "a guard", "a target", "a memory"]),
+    ("previous", &["a body", "a law", "a derived value", "an if", "an entry", "an exit", "a guard", "a contract"]),
+    ("peak", &["a body", "a law", "an if", "an entry", "an exit", "a guard"]),
+    ("settled", &["a body", "an if", "a guard", "a contract"]),
+    ("path_length", &["a body", "an if"]),
+    ("time in a state", &["a body", "an if", "an entry", "an exit", "a guard", "a target", "a contract"]),
+    ("a component", &["a body", "an if"]),
     ("steer body turning", &["a body", "a law", "an if"]),
     ("steer body facing", &["a body", "a law", "an if"]),
     ("steer w turning", &["a body", "a law", "an if"]),
@@ -206,6 +276,10 @@ const DONE: [(&str, &[&str]); 43] = [
     ("a success", &["a target"]),
     ("a closed loop", &["a body", "an if", "a guard"]),
     ("failsafe", &["the state", "a state around", "the machine"]),
+    ("assume", &["a state", "the machine"]),
+    ("never", &["a state", "the machine"]),
+    ("never for", &["a state", "the machine"]),
+    ("always", &["a state", "the machine"]),
     ("five ticks that steer", &["a run"]),
     ("ten ticks without a failure", &["a run"]),
 ];

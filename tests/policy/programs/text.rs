@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::tree::{
-    Arguments, Derived, Expression, Guard, Law, Monitor, Program, Rule, Statement, Steer, Target, Type, default,
+    Arguments, Contract, Derived, Expression, Guard, Law, Monitor, Program, Rule, Statement, Steer, Target, Type,
+    default,
 };
 
 impl std::fmt::Debug for Program {
@@ -89,6 +90,9 @@ impl Program {
             writeln!(text, "var {name} = {}", value.text()).unwrap();
         }
         text.push_str(&block(&self.body));
+        for contract in &self.contracts {
+            writeln!(text, "{}", contract.text()).unwrap();
+        }
         self.write_inside(None, text);
         if let Some(target) = &self.failsafe {
             writeln!(text, "failsafe -> {}", target.text()).unwrap();
@@ -115,11 +119,25 @@ impl Program {
             for Rule { guard, target } in &state.rules {
                 writeln!(text, "{} -> {}", guard.text(), target.text()).unwrap();
             }
+            for contract in &state.contracts {
+                writeln!(text, "{}", contract.text()).unwrap();
+            }
             if let Some(target) = &state.failsafe {
                 writeln!(text, "failsafe -> {}", target.text()).unwrap();
             }
             self.write_inside(Some(index), text);
             text.push_str("}\n");
+        }
+    }
+}
+
+impl Contract {
+    pub(crate) fn text(&self) -> String {
+        match self {
+            Self::Assume(condition) => format!("assume {}", condition.text()),
+            Self::Never(condition, None) => format!("never {}", condition.text()),
+            Self::Never(condition, Some(time)) => format!("never {} for {}", condition.text(), time.text()),
+            Self::Always(condition, time) => format!("always {} within {}", condition.text(), time.text()),
         }
     }
 }

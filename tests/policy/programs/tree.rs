@@ -150,6 +150,14 @@ pub(crate) struct Rule {
     pub(crate) target: Target,
 }
 
+#[derive(Debug, Clone)]
+pub(crate) enum Contract {
+    Assume(Expression),
+    Never(Expression, Option<Expression>),
+    /// A condition, and the time within which it holds again.
+    Always(Expression, Expression),
+}
+
 #[derive(Debug, Clone, Default)]
 pub(crate) struct State {
     pub(crate) parent: Option<usize>,
@@ -161,6 +169,7 @@ pub(crate) struct State {
     pub(crate) body: Vec<Statement>,
     pub(crate) rules: Vec<Rule>,
     pub(crate) failsafe: Option<Target>,
+    pub(crate) contracts: Vec<Contract>,
 }
 
 /// A monitor, and the values of its arguments where it is used.
@@ -191,6 +200,7 @@ pub(crate) struct Program {
     pub(crate) states: Vec<State>,
     pub(crate) always: Vec<Rule>,
     pub(crate) failsafe: Option<Target>,
+    pub(crate) contracts: Vec<Contract>,
 }
 
 impl Program {

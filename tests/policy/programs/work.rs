@@ -39,11 +39,13 @@ fn probed(program: &machine::Program) -> machine::Program {
     [&mut probed.start, &mut probed.entry, &mut probed.monitors, &mut probed.body].into_iter().for_each(double);
     probed.always.iter_mut().for_each(transition);
     probed.fallback.iter_mut().for_each(target);
+    probed.contracts.iter_mut().for_each(|contract| double(&mut contract.code));
     for state in &mut probed.states {
         [&mut state.entry, &mut state.body, &mut state.exit].into_iter().for_each(double);
         state.initial.iter_mut().for_each(|(_, values)| double(values));
         state.transitions.iter_mut().for_each(transition);
         state.fallback.iter_mut().for_each(target);
+        state.contracts.iter_mut().for_each(|contract| double(&mut contract.code));
     }
     probed
 }

@@ -4,6 +4,7 @@ mod argument;
 pub(crate) mod calibrate;
 mod check;
 mod compile;
+mod contract;
 #[cfg(unix)]
 mod drive;
 mod families;

@@ -150,6 +150,7 @@ mod with_simulation {
             "path_ratio",
             "collisions",
             "collisions.count",
+            "contracts",
             "collisions.time_s",
             "out_of_plane",
             "inclination",

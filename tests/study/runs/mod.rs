@@ -51,6 +51,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             marks: vec![],
             crashed: false,
         },
+        contracts: vec![],
         wall: Duration::from_millis(8),
         start: Duration::from_millis(40),
         tick_times: (0..count).map(|index| Duration::from_nanos(1000 + index as u64)).collect(),

@@ -8,8 +8,9 @@ use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Status, Tick};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
-use super::loop_record::{LoopRecord, RecordSender, StepInput};
+use super::loop_record::{LoopRecord, RecordSender, StepInput, Violation};
 use super::report::TickReport;
+use super::violations::NewViolations;
 use crate::array::{Assembler, PoseHistory, Round, StampedPose, Zeroing, ZeroingFault, period_ns};
 use crate::config::Config;
 use crate::link::StampedCommand;
@@ -136,7 +137,12 @@ impl ControlTask {
         watch(samples, self.base_angle_limit, &self.vitals);
         let (mut command, mut status) = (Command::STOP, Status::Running);
         if !is_paused {
-            let (next, tick) = self.control.tick(samples);
+            let mut violations = NewViolations::default();
+            let (next, tick) = self.control.tick_observed(samples, &mut violations);
+            for contract in violations.contracts() {
+                let violation = Violation { time_ns: started_ns, contract };
+                self.outputs.records.send(&LoopRecord::Violation(violation));
+            }
             (command, status) = (next, tick.status);
             observe(&self.control, command, &tick);
             if status == Status::Failed {

@@ -1,6 +1,7 @@
 //! Records of the loop, for the log, telemetry and recordings.
 
 use rtrb::{Consumer, Producer};
+use vibrissa_runtime::machine::ContractId;
 
 use super::report::TickReport;
 use crate::array::{Round, StampedPose};
@@ -21,10 +22,21 @@ pub enum LoopRecord {
     Step(StepInput),
     /// A step has executed the machine, or would have without a stop.
     Tick(TickReport),
+    /// The machine begins to violate a contract of its policy.
+    Violation(Violation),
     /// A fault has changed.
     Event(FaultEvent),
     /// The supervisor has sent a packet.
     Packet(CommandPacket),
+}
+
+/// The beginning of a violation of a contract.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Violation {
+    /// Start of the step (ns).
+    pub time_ns: u64,
+    /// The contract.
+    pub contract: ContractId,
 }
 
 /// The inputs of a step of the control task, except rounds and poses.

@@ -120,7 +120,7 @@ fn drive_by(
         buses.push(Box::new(move || opened));
     }
     let (actuator, poses) = (actuator(&config)?, poses(&config)?);
-    let mut sinks: Vec<Box<dyn RecordSink>> = vec![Box::new(EventLog)];
+    let mut sinks: Vec<Box<dyn RecordSink>> = vec![Box::new(EventLog::new(Arc::clone(&program)))];
     sinks.extend(run.good_after(ticks(arguments.good_after, config.rig.sensing.control_rate)));
     sinks.extend(recorder.map(|recorder| Box::new(recorder) as Box<dyn RecordSink>));
     // It is last, because its end takes longest.

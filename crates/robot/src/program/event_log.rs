@@ -1,26 +1,54 @@
-//! The log of faults on standard error.
+//! The log of faults and of violated contracts on standard error.
+
+use std::sync::Arc;
+
+use vibrissa_runtime::machine::Program;
 
 use super::command_line::print_error;
-use crate::drive::{LoopRecord, RecordSink};
+use crate::drive::{LoopRecord, RecordSink, Violation};
 use crate::fault::{FaultChange, FaultEvent};
 
-/// Prints every change of a fault.
+/// Prints every change of a fault, and every violation of a contract when it begins.
 #[derive(Debug)]
-pub(super) struct EventLog;
+pub(super) struct EventLog {
+    program: Arc<Program>,
+}
+
+impl EventLog {
+    /// The log of a robot that runs this program.
+    pub(super) fn new(program: Arc<Program>) -> Self {
+        Self { program }
+    }
+}
 
 impl RecordSink for EventLog {
     fn take(&mut self, record: &LoopRecord) {
-        if let LoopRecord::Event(event) = record {
-            print_error(&line(event));
+        match record {
+            LoopRecord::Event(event) => print_error(&fault(event)),
+            LoopRecord::Violation(begun) => print_error(&violation(&self.program, begun)),
+            _ => {}
         }
     }
 }
 
-fn line(event: &FaultEvent) -> String {
+fn fault(event: &FaultEvent) -> String {
     let change = match event.change {
         FaultChange::Detected => "detected",
         FaultChange::Reacted => "the robot is stopped",
         FaultChange::Recovered => "over",
     };
-    format!("{:.3} s: {}: {}: {change}", event.time_ns as f64 * 1e-9, event.fault.kind.name(), event.fault)
+    format!("{:.3} s: {}: {}: {change}", seconds(event.time_ns), event.fault.kind.name(), event.fault)
+}
+
+fn violation(program: &Program, begun: &Violation) -> String {
+    let (state, text) = match program.contract(begun.contract) {
+        Some((Some(state), contract)) => (format!("state {}: ", state.name), &*contract.text),
+        Some((None, contract)) => (String::new(), &*contract.text),
+        None => (String::new(), "an unknown contract"),
+    };
+    format!("{:.3} s: {state}the policy violates `{text}`", seconds(begun.time_ns))
+}
+
+fn seconds(time_ns: u64) -> f64 {
+    time_ns as f64 * 1e-9
 }

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::action::{Action, NonFinite};
 use super::configuration::Configuration;
+use super::contract::{Contract, ContractStatus, Moment, ObservedContract};
 use super::evaluate::{compute, evaluate};
 use super::fallback::{Cause, Fallback};
-use super::observer::{Duration, Observer, Standing, TransitionId, TriedGuard};
+use super::observer::{ContractId, Duration, Observer, Standing, TransitionId, TriedGuard, ViolatedContract};
 use super::op::Block;
 use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
@@ -30,6 +31,9 @@ pub(super) struct Activity {
     last_inner: Vec<Option<usize>>,
     /// For every guard with a duration, the time (s) since which its condition holds.
     holding_since: Vec<Option<f64>>,
+    /// For every contract of the machine and of every state, what was observed.
+    contracts: Vec<ContractStatus>,
+    contracts_of_states: Vec<Vec<ContractStatus>>,
 }
 
 impl Activity {
@@ -42,6 +46,10 @@ impl Activity {
             entered_at: vec![0.0; program.states.len()],
             last_inner: vec![None; program.states.len()],
             holding_since: vec![None; program.timers],
+            contracts: vec![ContractStatus::default(); program.contracts.len()],
+            contracts_of_states: (program.states.iter())
+                .map(|state| vec![ContractStatus::default(); state.contracts.len()])
+                .collect(),
         }
     }
 
@@ -66,7 +74,8 @@ impl Activity {
         }
         self.compute(program, &program.monitors, senses);
         if is_first {
-            self.enter(program, None, (self.state(), false), now, senses);
+            self.check_contracts(program, None, Moment::Entry, now, senses, observer);
+            self.enter(program, None, (self.state(), false), now, senses, observer);
         }
         let mut enabled = self.enabled(program, None, now, senses, observer);
         for taken in 0..=MICROSTEP_LIMIT {
@@ -81,24 +90,32 @@ impl Activity {
             }
             match enabled {
                 None => {
+                    self.watch_contracts(program, now, senses, observer);
                     self.compute(program, &program.body, senses);
                     return match self.run_bodies(program, 0, senses, action) {
                         Ok(()) => (Ok(()), None),
                         Err((state, non_finite)) => {
                             observer.not_finite(state, &self.registers);
-                            self.take_fallback(program, (state, Cause::NotFinite(non_finite)), now, senses, action)
+                            self.take_fallback(
+                                program,
+                                (state, Cause::NotFinite(non_finite)),
+                                now,
+                                senses,
+                                action,
+                                observer,
+                            )
                         }
                     };
                 }
                 Some((_, Target::Failure(reason))) => return (Err(failure(reason)), None),
                 Some((_, Target::Success(reason))) => return (Err(End::Success(Arc::clone(reason))), None),
                 Some((transition, Target::State { state, arguments, resume })) if taken < MICROSTEP_LIMIT => {
-                    self.take(program, transition.state, (*state, arguments, *resume), now, senses);
+                    self.take(program, transition.state, (*state, arguments, *resume), now, senses, observer);
                 }
                 Some((_, Target::State { .. })) => {}
             }
         }
-        self.take_fallback(program, (self.state(), Cause::MicrostepLimit), now, senses, action)
+        self.take_fallback(program, (self.state(), Cause::MicrostepLimit), now, senses, action, observer)
     }
 
     /// The target of the first enabled transition of the active states, from the outermost to the innermost.
@@ -121,13 +138,14 @@ impl Activity {
         (target, arguments, resume): (usize, &Block, bool),
         now: f64,
         senses: &mut S,
+        observer: &mut impl Observer,
     ) {
         let common_ancestor = program.common_ancestor(from, target);
         for left in program.outward(self.state()).take_while(|&left| Some(left) != common_ancestor) {
             self.compute(program, &program.states[left].exit, senses);
         }
         self.compute(program, arguments, senses);
-        self.enter(program, common_ancestor, (target, resume), now, senses);
+        self.enter(program, common_ancestor, (target, resume), now, senses, observer);
     }
 
     /// Enters `target` and those of its outer states that are not active yet. Then it enters inner states: the initial
@@ -139,13 +157,14 @@ impl Activity {
         (target, resume): (usize, bool),
         now: f64,
         senses: &mut S,
+        observer: &mut impl Observer,
     ) {
         let (configuration, first) = (
             Configuration::to(program, target),
             common_ancestor.map_or(0, |common_ancestor| program.outward(common_ancestor).count()),
         );
         for &state in &configuration.states()[first..] {
-            self.enter_one(program, state, now, senses);
+            self.enter_one(program, state, now, senses, observer);
         }
         while let Some((initial, arguments)) = &program.states[self.state()].initial {
             let inner = match self.last_inner[self.state()] {
@@ -155,12 +174,19 @@ impl Activity {
                     *initial
                 }
             };
-            self.enter_one(program, inner, now, senses);
+            self.enter_one(program, inner, now, senses, observer);
         }
     }
 
-    /// Enters one state: records the time, resets its timers and runs its entry code.
-    fn enter_one<S: Senses>(&mut self, program: &Program, index: usize, now: f64, senses: &mut S) {
+    /// Enters one state: records the time, resets its timers, runs its entry code and checks its assumptions.
+    fn enter_one<S: Senses>(
+        &mut self,
+        program: &Program,
+        index: usize,
+        now: f64,
+        senses: &mut S,
+        observer: &mut impl Observer,
+    ) {
         let state = &program.states[index];
         self.active = Configuration::to(program, index);
         self.entered_at[index] = now;
@@ -173,6 +199,58 @@ impl Activity {
             }
         }
         self.compute(program, &state.entry, senses);
+        self.contracts_of_states[index].iter_mut().for_each(ContractStatus::restart);
+        self.check_contracts(program, Some(index), Moment::Entry, now, senses, observer);
+    }
+
+    /// Evaluates the contracts of a state, or of the machine for `None`, that belong to a moment.
+    fn check_contracts<S: Senses>(
+        &mut self,
+        program: &Program,
+        state: Option<usize>,
+        moment: Moment,
+        now: f64,
+        senses: &mut S,
+        observer: &mut impl Observer,
+    ) {
+        let contracts = state.map_or(&program.contracts, |state| &program.states[state].contracts);
+        for (index, contract) in contracts.iter().enumerate().filter(|(_, contract)| contract.moment == moment) {
+            self.compute(program, &contract.code, senses);
+            let statuses = state.map_or(&mut self.contracts, |state| &mut self.contracts_of_states[state]);
+            if let Some(is_new) = statuses[index].update(contract, &self.registers, now) {
+                let id = ContractId { state, index };
+                observer.violated(&ViolatedContract { id, contract, is_new, registers: &self.registers });
+            }
+        }
+    }
+
+    /// Evaluates the contracts of the machine and of the active states.
+    fn watch_contracts<S: Senses>(
+        &mut self,
+        program: &Program,
+        now: f64,
+        senses: &mut S,
+        observer: &mut impl Observer,
+    ) {
+        self.check_contracts(program, None, Moment::Tick, now, senses, observer);
+        for level in 0..self.active.states().len() {
+            let state = self.active.states()[level];
+            self.check_contracts(program, Some(state), Moment::Tick, now, senses, observer);
+        }
+    }
+
+    /// The contracts of the machine and of all states, with what was observed.
+    pub(super) fn contracts<'m>(&'m self, program: &'m Program) -> impl Iterator<Item = ObservedContract<'m>> {
+        fn observed<'m>(
+            state: Option<usize>,
+            contracts: &'m [Contract],
+            statuses: &'m [ContractStatus],
+        ) -> impl Iterator<Item = ObservedContract<'m>> {
+            contracts.iter().zip(statuses).map(move |(contract, status)| ObservedContract { state, contract, status })
+        }
+        let of_states = program.states.iter().zip(&self.contracts_of_states).enumerate();
+        observed(None, &program.contracts, &self.contracts)
+            .chain(of_states.flat_map(|(index, (state, statuses))| observed(Some(index), &state.contracts, statuses)))
     }
 
     /// Runs the bodies of the active states, except the `from` outermost. The action is the last one given, or
@@ -213,13 +291,14 @@ impl Activity {
         now: f64,
         senses: &mut S,
         action: &mut Action,
+        observer: &mut impl Observer,
     ) -> (Result<(), End>, Option<Fallback>) {
         let outcome = match program.fallback_of(state_left) {
             None => return (Err(End::Failure(cause.failure(&program.states[state_left].name))), None),
             Some((_, Target::Failure(reason))) => Err(failure(reason)),
             Some((_, Target::Success(reason))) => Err(End::Success(Arc::clone(reason))),
             Some((from, Target::State { state, arguments, resume })) => {
-                self.take(program, from, (*state, arguments, *resume), now, senses);
+                self.take(program, from, (*state, arguments, *resume), now, senses, observer);
                 let have_acted = match cause {
                     Cause::NotFinite(_) => program
                         .common_ancestor(from, *state)

@@ -10,6 +10,7 @@ mod artifact;
 mod configuration;
 mod contact_estimator_kind;
 mod contour;
+mod contract;
 mod evaluate;
 mod fallback;
 mod needs;
@@ -32,9 +33,10 @@ pub use action::{Action, ActionPart, Mover, NonFinite, Turn};
 pub use artifact::{ARTIFACT_LIMIT, Artifact, ArtifactError, FORMAT, MAGIC, Origin};
 pub use contact_estimator_kind::ContactEstimatorKind;
 pub use contour::{Keypoints, PositionContour};
+pub use contract::{CONTRACT_LIMIT, Contract, ContractStatus, Moment, ObservedContract, TimedMargin};
 pub use fallback::{Cause, Fallback};
 pub use needs::{Needs, RateRange, UnmetRate};
-pub use observer::{Duration, Observer, Standing, TransitionId, TriedGuard};
+pub use observer::{ContractId, Duration, Observer, Standing, TransitionId, TriedGuard, ViolatedContract};
 pub use op::{Block, Op, Register, Wide};
 pub use program::{
     CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, ParameterValue,

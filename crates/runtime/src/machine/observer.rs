@@ -1,5 +1,7 @@
 //! The interface to watch a machine from outside while it executes a tick.
 
+use super::contract::Contract;
+
 /// Receives the guards that a machine tries and the transitions that it takes, in this order.
 ///
 /// An observer changes nothing. `()` observes nothing, at no cost.
@@ -12,6 +14,11 @@ pub trait Observer {
     /// A transition is taken. Its guard was evaluated before.
     fn taken(&mut self, transition: TransitionId) {
         let _ = transition;
+    }
+
+    /// A contract was violated.
+    fn violated(&mut self, violated: &ViolatedContract<'_>) {
+        let _ = violated;
     }
 
     /// A command with a number that is not finite was given in the state with this index. `registers` are those after the
@@ -41,6 +48,28 @@ pub struct TriedGuard<'a> {
     pub standing: Standing,
     /// All registers after the evaluation. In a program that is not optimised, they include the operands of the
     /// guard's comparisons.
+    pub registers: &'a [f64],
+}
+
+/// Identifies a contract of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ContractId {
+    /// Index of the state to which it belongs. `None` for a contract of the whole machine.
+    pub state: Option<usize>,
+    /// Index among the contracts of that state, or among those of the machine.
+    pub index: usize,
+}
+
+/// A contract that is violated in this tick.
+#[derive(Debug, Clone, Copy)]
+pub struct ViolatedContract<'a> {
+    /// Identifies the contract.
+    pub id: ContractId,
+    /// The contract.
+    pub contract: &'a Contract,
+    /// True if the previous evaluation found no violation.
+    pub is_new: bool,
+    /// All registers after the evaluation.
     pub registers: &'a [f64],
 }
 

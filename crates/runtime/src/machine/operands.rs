@@ -112,6 +112,20 @@ impl Op {
         }
     }
 
+    /// The register of the result, if the operation compares numbers or joins bools.
+    #[must_use]
+    pub fn bool_result(self) -> Option<Register> {
+        match self {
+            Self::And { to, .. }
+            | Self::Or { to, .. }
+            | Self::Not { to, .. }
+            | Self::Less { to, .. }
+            | Self::LessOrEqual { to, .. }
+            | Self::Equal { to, .. } => Some(to),
+            _ => None,
+        }
+    }
+
     /// True if the operation records, marks or gives a command.
     #[must_use]
     pub fn is_action(self) -> bool {

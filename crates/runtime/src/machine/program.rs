@@ -8,7 +8,9 @@ use crate::units::{Dimension, Quantity, QuantityError, format_si, parse_quantity
 
 use super::contact_estimator_kind::ContactEstimatorKind;
 use super::contour::{Keypoints, PositionContour};
+use super::contract::{Contract, Moment};
 use super::needs::Needs;
+use super::observer::ContractId;
 use super::op::{Block, Op, Register};
 use super::tick::MICROSTEP_LIMIT;
 
@@ -62,6 +64,8 @@ pub struct Program {
     pub body: Block,
     /// Global transitions. They are tried first in every state.
     pub always: Vec<Transition>,
+    /// Contracts of the whole machine.
+    pub contracts: Vec<Contract>,
     /// Fallback transition for states without their own.
     pub fallback: Option<Target>,
     /// All code. Blocks are ranges of it.
@@ -129,6 +133,8 @@ pub struct State {
     pub exit: Block,
     /// Transitions in the order in which they are tried.
     pub transitions: Vec<Transition>,
+    /// Contracts of the state.
+    pub contracts: Vec<Contract>,
     /// Fallback transition: taken if the action is not finite or a tick exceeds the microstep limit.
     pub fallback: Option<Target>,
 }
@@ -180,6 +186,11 @@ pub(super) fn guards(transitions: &[Transition]) -> Block {
         [first, .., last] => first.guard.code().start..last.guard.code().end,
         [only] => only.guard.code().clone(),
     }
+}
+
+/// Number of operations of the contracts that are evaluated at a moment.
+fn contract_operations(contracts: &[Contract], moment: Moment) -> usize {
+    contracts.iter().filter(|contract| contract.moment == moment).map(|contract| contract.code.len()).sum()
 }
 
 /// The target of a transition.
@@ -322,14 +333,17 @@ impl Program {
         self.outward(state).find_map(own).or_else(|| Some((None, self.fallback.as_ref()?)))
     }
 
-    /// Maximum number of operations of a tick that stays in a state: the monitors, and all guards and bodies of the
+    /// Maximum number of operations of a tick that stays in a state: the monitors, and all guards, contracts and bodies of the
     /// program, the state and its outer states. Jumps only go forward, so a block never runs more operations than it contains.
     #[must_use]
     pub fn operations(&self, state: usize) -> usize {
         let guards = |transitions: &[Transition]| guards(transitions).len();
+        let watched = |contracts: &[Contract]| contract_operations(contracts, Moment::Tick);
         let active = self.outward(state).map(|state| &self.states[state]);
-        let own = self.monitors.len() + guards(&self.always) + self.body.len();
-        own + active.map(|state| guards(&state.transitions) + state.body.len()).sum::<usize>()
+        let own = self.monitors.len() + guards(&self.always) + watched(&self.contracts) + self.body.len();
+        own + active
+            .map(|state| guards(&state.transitions) + watched(&state.contracts) + state.body.len())
+            .sum::<usize>()
     }
 
     /// Upper bound of the operations of any tick. It includes the start of a run with its initial state, the maximum
@@ -345,15 +359,21 @@ impl Program {
         let of_states =
             self.states.iter().flat_map(|state| state.transitions.iter().map(|one| &one.target).chain(&state.fallback));
         let targets = self.always.iter().map(|one| &one.target).chain(&self.fallback).chain(of_states);
-        let entering = |state: &State| state.entry.len() + state.initial.as_ref().map_or(0, |(_, values)| values.len());
+        let entering = |state: &State| {
+            state.entry.len()
+                + contract_operations(&state.contracts, Moment::Entry)
+                + state.initial.as_ref().map_or(0, |(_, values)| values.len())
+        };
         let enter = most(&|state| along_path(state, &entering));
         let transition = most(&|state| along_path(state, &|state| state.exit.len()))
             + targets.map(values).max().unwrap_or(0)
             + enter;
         let look = most(&|state| along_path(state, &|state| guards(&state.transitions)));
         let act = most(&|state| along_path(state, &|state| state.body.len()));
+        let watch = most(&|state| along_path(state, &|state| contract_operations(&state.contracts, Moment::Tick)));
+        let own_contracts = self.contracts.iter().map(|contract| contract.code.len()).sum::<usize>();
         let once = self.start.len() + self.entry.len() + self.monitors.len() + enter;
-        let once = once + guards(&self.always) + self.body.len();
+        let once = once + guards(&self.always) + self.body.len() + own_contracts + watch;
         once + (MICROSTEP_LIMIT + 1) * (look + transition) + 2 * act
     }
 
@@ -411,6 +431,14 @@ impl Program {
         let value = self.parameters[index].read(value)?;
         self.initial_registers[index] = value;
         Ok(value)
+    }
+
+    /// The state and the contract with an identifier.
+    #[must_use]
+    pub fn contract(&self, id: ContractId) -> Option<(Option<&State>, &Contract)> {
+        let Some(state) = id.state else { return Some((None, self.contracts.get(id.index)?)) };
+        let state = self.states.get(state)?;
+        Some((Some(state), state.contracts.get(id.index)?))
     }
 
     /// Index of a parameter.

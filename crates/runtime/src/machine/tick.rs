@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::action::{Action, NonFinite};
 use super::activity::Activity;
+use super::contract::ObservedContract;
 use super::fallback::Fallback;
 use super::observer::Observer;
 use super::program::Program;
@@ -122,6 +123,11 @@ impl Machine {
         if let Some(End::Success(reason)) = &self.end { Some(reason) } else { None }
     }
 
+    /// The contracts of the machine and of its states, with what was observed so far.
+    pub fn contracts(&self) -> impl Iterator<Item = ObservedContract<'_>> {
+        self.activity.contracts(&self.program)
+    }
+
     /// The status after the newest tick.
     fn status(&self) -> Status {
         match self.end {
@@ -133,7 +139,7 @@ impl Machine {
 
     /// Executes one tick. The monitors run first. Then it tries the global transitions, and then those of the active states, from the
     /// outermost to the innermost and in their written order. After each one taken it tries again, up to
-    /// [`MICROSTEP_LIMIT`] times. Then the body of the program runs, and the bodies of the active states, from the
+    /// [`MICROSTEP_LIMIT`] times. Then the contracts are evaluated. Then the body of the program runs, and the bodies of the active states, from the
     /// outermost to the innermost.
     ///
     /// A non-finite action is never returned. In that case, or if the tick exceeds the microstep limit, the fallback

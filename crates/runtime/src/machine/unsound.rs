@@ -56,6 +56,9 @@ pub enum Unsound {
     /// A monitor does more than change memory.
     #[error("its monitors record, or give a command")]
     Monitor,
+    /// A contract does more than compute, or its text is not one short line.
+    #[error("its contract `{0}` records or gives a command, or its text is not one short line")]
+    Contract(String),
     /// The initial state of a state is missing or is not one of its inner states, or a state without inner states is
     /// resumed.
     #[error("its state {0} has an invalid initial state")]

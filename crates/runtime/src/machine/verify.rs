@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use crate::signal::MAX_WHISKERS;
 
 use super::contour::Keypoints;
+use super::contract::{CONTRACT_LIMIT, Contract};
 use super::op::{Block, Op, Register};
 use super::operands::{Index, RegisterSpan};
 use super::program::{
@@ -47,13 +48,16 @@ impl Program {
             monitors,
             body: _,
             always,
+            contracts,
             fallback: _,
             code,
             initial_registers,
             timers: _,
         } = self;
         let transitions = always.len() + states.iter().map(|state| state.transitions.len()).sum::<usize>();
+        let contracts = contracts.len() + states.iter().map(|state| state.contracts.len()).sum::<usize>();
         for (what, count, limit) in [
+            ("contracts", contracts, CONTRACT_LIMIT),
             ("whiskers", whiskers.len(), MAX_WHISKERS),
             ("states", states.len(), STRUCTURE_LIMIT),
             ("transitions", transitions, STRUCTURE_LIMIT),
@@ -98,7 +102,31 @@ impl Program {
         if code[monitors.start as usize..monitors.end as usize].iter().any(|op| op.is_action()) {
             return Err(Unsound::Monitor);
         }
+        self.verify_contracts()?;
         self.verify_operands()
+    }
+
+    /// Checks the texts and registers of contracts, and that they only compute.
+    fn verify_contracts(&self) -> Result<(), Unsound> {
+        for contract in self.all_contracts() {
+            let Contract { moment: _, text, code, violated, lasting, margin } = contract;
+            if text.len() > DESCRIPTION_LIMIT || text.chars().any(char::is_control) {
+                return Err(Unsound::Contract(text.to_string()));
+            }
+            // The block is within the code.
+            if self.code[code.start as usize..code.end as usize].iter().any(|op| op.is_action()) {
+                return Err(Unsound::Contract(text.to_string()));
+            }
+            for register in [Some(*violated), *lasting, margin.map(|(register, _)| register)].into_iter().flatten() {
+                within("register", usize::from(register), self.initial_registers.len())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The contracts of the machine and of all states.
+    fn all_contracts(&self) -> impl Iterator<Item = &Contract> {
+        self.contracts.iter().chain(self.states.iter().flat_map(|state| &state.contracts))
     }
 
     /// Checks that initial registers are finite and parameters are within their ranges.
@@ -226,11 +254,15 @@ impl Program {
             let own = [&state.entry, &state.body, &state.exit].map(Block::clone);
             let own = own.into_iter().chain(state.initial.iter().map(|(_, arguments)| arguments.clone()));
             let fallback = state.fallback.iter().map(of_target);
-            state.transitions.iter().flat_map(of_transition).chain(own).chain(fallback).collect::<Vec<Block>>()
+            let contracts = state.contracts.iter().map(|contract| contract.code.clone());
+            let transitions = state.transitions.iter().flat_map(of_transition);
+            transitions.chain(own).chain(fallback).chain(contracts).collect::<Vec<Block>>()
         };
         let fallback = self.fallback.iter().map(of_target);
         let acts = [&self.start, &self.entry, &self.monitors, &self.body].map(Block::clone);
-        let own: Vec<Block> = self.always.iter().flat_map(of_transition).chain(fallback).chain(acts).collect();
+        let contracts = self.contracts.iter().map(|contract| contract.code.clone());
+        let transitions = self.always.iter().flat_map(of_transition);
+        let own: Vec<Block> = transitions.chain(fallback).chain(acts).chain(contracts).collect();
         let states: Vec<Vec<Block>> = self.states.iter().map(of_state).collect();
         let mut blocks: Vec<Block> = states.iter().flatten().chain(&own).cloned().collect();
         blocks.sort_by_key(|block| (block.start, block.end));
