@@ -362,7 +362,8 @@ fn describe(file: &str, machine: &Summary) -> String {
             let how = if *proved { "proved" } else { "watched in runs" };
             vec![state.clone().unwrap_or_default(), contract.clone(), how.to_owned()]
         });
-        text += &format!("\n{}", Table::new(3, ["state", "contract", ""], contracts).fitted());
+        text.push('\n');
+        text += &Table::new(3, ["state", "contract", ""], contracts).fitted();
     }
     text
 }

@@ -174,7 +174,7 @@ impl Trial {
         let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));
         let violated = run.contracts.iter().filter(|contract| contract.violations > 0).count();
         let violations = violations.chain((violated > 0).then_some(Violation::Contracts { violated })).collect();
-        TrialResult { violations, run, score }
+        TrialResult { run, score, violations }
     }
 
     /// The result as a JSON document.

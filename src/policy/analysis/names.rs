@@ -72,7 +72,7 @@ impl<'a> Names<'a> {
     pub(super) fn contracts(&mut self, contracts: &'a [Contract]) {
         for Contract { condition, time, .. } in contracts {
             self.expression(condition);
-            time.iter().for_each(|time| self.expression(time));
+            self.expressions(time);
         }
     }
 

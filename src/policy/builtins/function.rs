@@ -121,7 +121,7 @@ impl Function {
     /// The arguments of the function.
     pub(in crate::policy) fn takes(self) -> &'static str {
         match self {
-            Self::Abs | Self::Sign => "one number of any dimension",
+            Self::Abs | Self::Sign | Self::Peak => "one number of any dimension",
             Self::Sqrt => "one number with a dimension that is a square, such as an area",
             Self::Min | Self::Max | Self::Vector => "two numbers of one dimension",
             Self::Clamp => "three numbers of one dimension: the value, the minimum, the maximum",
@@ -134,7 +134,6 @@ impl Function {
             Self::Dot | Self::Cross => "two vectors",
             Self::LowPass => "a number and a frequency",
             Self::Previous => "a number or a vector",
-            Self::Peak => "one number of any dimension",
             Self::Settled => "two numbers of one dimension, and a time",
             Self::PathLength => "a position",
             Self::Pid => {

@@ -27,6 +27,9 @@ impl<'f> Compiler<'f> {
         let register = |index: usize| given[index].register;
         let scalar = |dimension, register| Some(Value { r#type: Type::Scalar(dimension), register });
         let vector = |dimension, register| Some(Value { r#type: Type::Vector(dimension), register });
+        if let Some(value) = self.signal(function, &given) {
+            return Some(value);
+        }
         match (function, types.as_slice()) {
             (Function::Abs, &[Type::Scalar(dimension)]) => {
                 scalar(dimension, self.code.scalar(|to| Op::Absolute { to, a: register(0) }))
@@ -95,13 +98,6 @@ impl<'f> Compiler<'f> {
                 let (a, b) = (register(0), register(1));
                 scalar(dimension, self.code.scalar(|to| Op::LowPass { to, a, b, memory }))
             }
-            (Function::Previous, &[Type::Scalar(_) | Type::Vector(_)]) => Some(self.previous(given[0])),
-            (Function::Peak, &[Type::Scalar(dimension)]) => scalar(dimension, self.peak(register(0))),
-            (Function::Settled, &[Type::Scalar(a), Type::Scalar(within), Type::TIME]) if a == within => {
-                let register = self.settled([0, 1, 2].map(register));
-                Some(Value { r#type: Type::Truth, register })
-            }
-            (Function::PathLength, &[Type::POSITION]) => scalar(Dimension::LENGTH, self.path_length(register(0))),
             (
                 Function::Pid,
                 &[Type::Scalar(error), Type::Scalar(p), Type::Scalar(i), Type::Scalar(d), Type::Scalar(limit)],

@@ -5,14 +5,36 @@
 //! memory. The entry of a state sets the memory to zero, so its first register tells whether there is a value.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::types::Value;
+use crate::policy::builtins::Function;
+use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{Op, Register, TIME_SLACK};
 
 use super::Compiler;
 
 impl Compiler<'_> {
+    /// Lowers a function with a memory of a signal. `None` for another function, and for values that it does not take.
+    pub(super) fn signal(&mut self, function: Function, given: &[Value]) -> Option<Value> {
+        let (r#type, register) = match (function, given) {
+            (Function::Previous, &[signal @ Value { r#type: Type::Scalar(_) | Type::Vector(_), .. }]) => {
+                return Some(self.previous(signal));
+            }
+            (Function::Peak, &[Value { r#type: r#type @ Type::Scalar(_), register }]) => (r#type, self.peak(register)),
+            (Function::Settled, &[signal, within, lasting])
+                if matches!(signal.r#type, Type::Scalar(_))
+                    && (within.r#type, lasting.r#type) == (signal.r#type, Type::TIME) =>
+            {
+                (Type::Truth, self.settled([signal, within, lasting].map(|value| value.register)))
+            }
+            (Function::PathLength, &[Value { r#type: Type::POSITION, register }]) => {
+                (Type::LENGTH, self.path_length(register))
+            }
+            _ => return None,
+        };
+        Some(Value { r#type, register })
+    }
+
     /// Lowers `previous(x)`: the value at the last earlier tick in which it was computed. At first, the value itself.
-    pub(super) fn previous(&mut self, signal: Value) -> Value {
+    fn previous(&mut self, signal: Value) -> Value {
         let clock = self.memory(2);
         let (has, time) = (clock, clock + 1);
         let now = self.code.scalar(|to| Op::Time { to });
@@ -36,7 +58,7 @@ impl Compiler<'_> {
     }
 
     /// Lowers `peak(x)`: the largest value since the entry of the state.
-    pub(super) fn peak(&mut self, a: Register) -> Register {
+    fn peak(&mut self, a: Register) -> Register {
         let memory = self.memory(2);
         let (has, peak) = (memory, memory + 1);
         let is_number = self.code.scalar(|to| Op::Equal { to, a, b: a });
@@ -52,7 +74,7 @@ impl Compiler<'_> {
     }
 
     /// Lowers `settled(x, within, lasting)`: true if the value stayed within a distance of one value for a time.
-    pub(super) fn settled(&mut self, [a, within, lasting]: [Register; 3]) -> Register {
+    fn settled(&mut self, [a, within, lasting]: [Register; 3]) -> Register {
         let memory = self.memory(3);
         let (has, around, since) = (memory, memory + 1, memory + 2);
         let now = self.code.scalar(|to| Op::Time { to });
@@ -72,7 +94,7 @@ impl Compiler<'_> {
     }
 
     /// Lowers `path_length(position)`: the length of the path of a position since the entry of the state.
-    pub(super) fn path_length(&mut self, position: Register) -> Register {
+    fn path_length(&mut self, position: Register) -> Register {
         let memory = self.memory(4);
         let (has, last, length) = (memory, memory + 1, memory + 3);
         let step = self.code.scalar(|to| Op::Distance { to, a: position, b: last });

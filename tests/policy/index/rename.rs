@@ -30,7 +30,9 @@ fn nameless(mut program: Program) -> String {
         state.name = "".into();
         contracts.extend(&mut state.contracts);
     }
-    contracts.into_iter().for_each(|contract| contract.text = "".into());
+    for contract in contracts {
+        contract.text = "".into();
+    }
     format!("{program:?}")
 }
 

@@ -167,8 +167,8 @@ mod tests {
 
     const PERIOD: f64 = 1.0 / 30.0;
 
-    fn free(reading: f64, bent: f64, deviation: f64) -> Option<FreeReading> {
-        Some(FreeReading { reading, bent, deviation })
+    fn free(reading: f64, bent: f64, deviation: f64) -> FreeReading {
+        FreeReading { reading, bent, deviation }
     }
 
     proptest! {
@@ -184,9 +184,9 @@ mod tests {
                 offsets.predict(PERIOD);
                 let (noise, drift) = (2e-7, rate * time);
                 if time < 5.0 {
-                    offsets.add(0, free(first + drift + noise * pair[0], 0.0, noise));
+                    offsets.add(0, Some(free(first + drift + noise * pair[0], 0.0, noise)));
                 }
-                offsets.add(1, free(second + drift + noise * pair[1], 0.0, noise));
+                offsets.add(1, Some(free(second + drift + noise * pair[1], 0.0, noise)));
                 if tick > 150 && first.abs() + second.abs() > 2e-6 {
                     // The two had 5 s to differ.
                     prop_assert!((offsets.value(1) - second - drift).abs() < 3e-7, "{time} s");
@@ -200,7 +200,7 @@ mod tests {
             let mut offsets = Offsets::new(1);
             for value in values {
                 offsets.predict(PERIOD);
-                offsets.add(0, free(1.5e-7 * value, 0.0, 1.5e-7));
+                offsets.add(0, Some(free(1.5e-7 * value, 0.0, 1.5e-7)));
                 prop_assert_eq!(offsets.value(0).to_bits(), 0.0_f64.to_bits());
             }
         }
@@ -210,7 +210,7 @@ mod tests {
             let mut offsets = Offsets::new(1);
             for tick in 0..200 {
                 offsets.predict(PERIOD);
-                offsets.add(0, free(offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7));
+                offsets.add(0, Some(free(offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7)));
             }
             prop_assert!((offsets.value(0) - offset).abs() < TOLERATED);
         }
@@ -219,14 +219,14 @@ mod tests {
         fn a_touch_that_begins_slowly_is_no_offset(first in -5e-6..5e-6_f64, rate in 2e-7..2e-6_f64, away in 0..400_u32) {
             let mut offsets = Offsets::new(2);
             for whisker in [0, 1] {
-                (0..90).for_each(|_| offsets.add(whisker, free(first, 0.0, 1e-8)));
+                (0..90).for_each(|_| offsets.add(whisker, Some(free(first, 0.0, 1e-8))));
             }
             for _ in 0..away {
                 offsets.predict(PERIOD);
                 offsets.add(0, None);
             }
             let before = offsets.value(0);
-            (1..4).for_each(|tick| offsets.add(0, free(first + f64::from(tick) * rate, 0.0, 1e-8)));
+            (1..4).for_each(|tick| offsets.add(0, Some(free(first + f64::from(tick) * rate, 0.0, 1e-8))));
             offsets.add(0, None);
             prop_assert_eq!(offsets.value(0).to_bits(), before.to_bits());
         }
@@ -238,8 +238,8 @@ mod tests {
                 // The platform rotates in every second second.
                 let bent = if tick / 30 % 2 == 0 { 2.5e-7 } else { 0.0 };
                 offsets.predict(PERIOD);
-                offsets.add(0, free(offset + effect * bent + 1e-8 * pair[0], bent, 1e-8));
-                offsets.add(1, free(-offset - effect * bent + 1e-8 * pair[1], -bent, 1e-8));
+                offsets.add(0, Some(free(offset + effect * bent + 1e-8 * pair[0], bent, 1e-8)));
+                offsets.add(1, Some(free(-offset - effect * bent + 1e-8 * pair[1], -bent, 1e-8)));
             }
             prop_assert!((offsets.value(0) - offset).abs() < 1.2e-7, "{}", offsets.value(0) - offset);
             prop_assert!((offsets.value(1) + offset).abs() < 1.2e-7);
