@@ -82,6 +82,7 @@ impl Senses for Script {
             BodyScalar::NoseWidth => 0.03,
             BodyScalar::TailWidth => 0.11,
             BodyScalar::NoseReach => 0.1,
+            BodyScalar::Flexibility => 1.25,
         }
     }
 

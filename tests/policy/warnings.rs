@@ -172,6 +172,7 @@ impl Senses for Told {
             BodyScalar::NoseWidth => "body.nose_width",
             BodyScalar::TailWidth => "body.tail_width",
             BodyScalar::NoseReach => "nose",
+            BodyScalar::Flexibility => "body.flexibility",
         })
     }
 

@@ -13,6 +13,7 @@ mod editor;
 mod faults;
 #[cfg(feature = "sim")]
 mod metrics;
+mod other_rigs;
 #[cfg(feature = "sim")]
 mod policies;
 #[cfg(feature = "sim")]

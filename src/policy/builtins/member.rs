@@ -196,7 +196,7 @@ const CONTOUR: [Member; 6] = [
     ),
 ];
 
-const BODY: [Member; 10] = [
+const BODY: [Member; 11] = [
     member(
         "yaw",
         Type::ANGLE,
@@ -241,6 +241,12 @@ const BODY: [Member; 10] = [
         Type::LENGTH,
         MemberSource::Body(BodyScalar::TailWidth),
         "the width of the platform at the tail, from the rig",
+    ),
+    member(
+        "flexibility",
+        Type::NUMBER,
+        MemberSource::Body(BodyScalar::Flexibility),
+        "the ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape, from the rig",
     ),
 ];
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::catalogue::{self, Parameter};
 use crate::diagnostic::Source;
-use crate::policy::ast::{Argument, Name};
+use crate::policy::ast::{Argument, Behaviour, Name};
 use crate::policy::description::description;
 use crate::policy::parse::parse;
 use crate::policy::standard::{MODULES, ROOT};
@@ -151,6 +151,36 @@ fn standard(page: &mut String) {
             let said = description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));
             row(page, [&format!("`{kind} {}{arguments}`", name.text), &said]);
         }
+        file.behaviours.iter().for_each(|item| behaviour(page, (module, &source), item));
+    }
+}
+
+/// The exits and contracts of a behaviour, and how to draw its chart.
+fn behaviour(page: &mut String, (module, source): (&str, &Source), item: &Behaviour) {
+    let (name, root) = (&item.name.text, item.root());
+    let _ = write!(
+        page,
+        "\n#### `{name}`\n\nThe command `vibrissa graph policies/std/{module}.fsm --state {name} -o {name}.svg` draws its statechart.\n\n\
+         | exit | meaning |\n|---|---|\n"
+    );
+    for exit in &root.exits {
+        let values =
+            exit.arguments.iter().map(|one| format!("{}: {}", one.name.text, source.slice(one.type_name.span())));
+        let values = values.collect::<Vec<_>>().join(", ");
+        let values = if values.is_empty() { values } else { format!("({values})") };
+        let said = description(source, exit.name.span).unwrap_or_default();
+        row(page, [&format!("`{}{values}`", exit.name.text), &said]);
+    }
+    let contracts = item.states.iter().flat_map(|state| state.contracts.iter().map(move |contract| (state, contract)));
+    let contracts: Vec<_> = contracts.collect();
+    if contracts.is_empty() {
+        return;
+    }
+    *page += "\n| contract | of |\n|---|---|\n";
+    for (state, contract) in contracts {
+        // A bar would end the cell.
+        let text = source.on_one_line(contract.span).replace('|', "\\|");
+        row(page, [&format!("`{text}`"), &format!("`{}`", state.name.text)]);
     }
 }
 

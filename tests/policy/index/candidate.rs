@@ -78,7 +78,19 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
     }
     assert_eq!(
         labels(&writing("let x = body.\u{a7}")),
-        ["yaw", "position", "blocked", "shortfall", "nose", "tail", "length", "width", "nose_width", "tail_width"]
+        [
+            "yaw",
+            "position",
+            "blocked",
+            "shortfall",
+            "nose",
+            "tail",
+            "length",
+            "width",
+            "nose_width",
+            "tail_width",
+            "flexibility"
+        ]
     );
     assert_eq!(labels(&writing("let x = w.tip.\u{a7}")), ["x", "y"]);
     for place in ["let x = speed.\u{a7}", "let x = 1.\u{a7}", "let x = nobody.\u{a7}"] {

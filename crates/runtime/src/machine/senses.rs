@@ -86,6 +86,8 @@ pub enum BodyScalar {
     TailWidth,
     /// Distance of the nose ahead of the centre of mass (m).
     NoseReach,
+    /// Ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape.
+    Flexibility,
 }
 
 /// Scalars and booleans of a whisker.

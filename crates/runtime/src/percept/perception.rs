@@ -43,6 +43,8 @@ pub struct Perception {
     body: Pose,
     at_effect: Pose,
     platform: Platform,
+    /// Flexibility of the first whisker that the policy binds.
+    flexibility: f64,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
@@ -171,6 +173,7 @@ impl Perception {
             body: Pose::default(),
             at_effect: Pose::default(),
             platform: rig.platform.clone(),
+            flexibility: whiskers.iter().flatten().next().map_or(1.0, |&first| rig.whiskers[first].flexibility()),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             contours: Vec::new(),
@@ -386,6 +389,7 @@ impl Senses for Perception {
             BodyScalar::NoseWidth => self.platform.nose_width,
             BodyScalar::TailWidth => self.platform.tail_width,
             BodyScalar::NoseReach => self.platform.length - self.platform.centre_of_mass,
+            BodyScalar::Flexibility => self.flexibility,
         }
     }
 

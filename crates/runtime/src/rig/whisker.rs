@@ -52,6 +52,15 @@ impl Whisker {
         Self { base_body: Point2::origin(), direction_body: 0.0, ..Self::reference("", 1.0) }
     }
 
+    /// Ratio of the base angles of this whisker and of the reference whisker, bent to the same shape. The base angle of a
+    /// shape is proportional to `E I / (k L)`, with the bending stiffness `E I` of the shaft, its length `L`, and the
+    /// stiffness `k` of the hinge.
+    #[must_use]
+    pub fn flexibility(&self) -> f64 {
+        let angle = |whisker: &Self| whisker.shaft.tip_stiffness() / (whisker.hinge.stiffness * whisker.shaft.length);
+        angle(self) / angle(&Self::reference("", 1.0))
+    }
+
     /// The whisker as perception models it: with the measured stiffness of the base hinge, or with all measured
     /// properties, as far as there are some.
     #[must_use]
