@@ -145,7 +145,7 @@ fn prepare<'a>(
     files: &mut CommandFiles,
 ) -> Result<Prepared<'a>, Failure> {
     let simulated = Simulated { world: &arguments.world, mismatch, options: &arguments.mismatch };
-    let Loaded { value: Policy { artifact, text }, hash } = load::policy(path, files)?;
+    let Loaded { value: Policy { artifact, text }, hash } = load::tested_policy(path, files)?;
     let text = text.ok_or_else(|| Failure::NoText { policy: path.to_owned() })?;
     output::diagnostics(&text.source, &text.warnings);
     let wanted =

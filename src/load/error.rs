@@ -56,6 +56,12 @@ pub(crate) enum LoadError {
         /// The path of the text when it was compiled.
         origin: String,
     },
+    /// The file is a test file where a policy is needed.
+    #[error("{} is a test file; give the file of the machine that its first line names, or run `vibrissa test`", path.display())]
+    TestFile {
+        /// The file.
+        path: PathBuf,
+    },
     /// The file has no valid contact sets.
     #[error("{}: {cause}", path.display())]
     Sets {

@@ -13,7 +13,7 @@ pub(crate) use mismatch::GivenMismatch;
 pub(crate) use policy::library_for_editor;
 pub(crate) use policy::{
     Policy, PolicyFile, PolicyText, built_in_policy, chart, policy, policy_file, policy_for, policy_text, program,
-    with_libraries, with_settings,
+    tested_policy, with_libraries, with_settings,
 };
 pub(crate) use recording::recording;
 pub(crate) use scenario::{

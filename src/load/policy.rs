@@ -63,10 +63,21 @@ pub(crate) struct PolicyText {
     pub(crate) source: Source,
     pub(crate) warnings: Vec<Diagnostic>,
     pub(crate) tests: Vec<PolicyTest>,
+    /// True if the text is a test file. Then the program is that of the tested machine.
+    pub(crate) is_test_file: bool,
 }
 
 /// Reads the text of a policy and compiles it, or reads a compiled machine.
 pub(crate) fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
+    let policy = tested_policy(path, files)?;
+    match &policy.value.text {
+        Some(text) if text.is_test_file => Err(LoadError::TestFile { path: path.to_owned() }),
+        _ => Ok(policy),
+    }
+}
+
+/// Reads a policy, or the machine of a test file with the tests of that file.
+pub(crate) fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
     let Loaded { value, hash } = policy_file(path, files)?;
     match value {
         PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
@@ -116,8 +127,8 @@ fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>
     let (source, compiled) = gather_and_compile(source, library);
     let hash = Sha256::new().chain_update(&source.text);
     match compiled {
-        Ok(Compiled { artifact, tests, warnings, proved: _ }) => {
-            let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests }) };
+        Ok(Compiled { artifact, tests, is_test_file, warnings, proved: _ }) => {
+            let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests, is_test_file }) };
             Ok(Loaded { value, hash })
         }
         Err(faults) => Err(LoadError::Faults { source_text: Box::new(source), faults }),

@@ -12,9 +12,9 @@ pub(super) struct Name {
 /// A file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct File {
-    /// The name after `machine` or `library`.
+    /// The name after `machine` or `library`. In a test file, the path of the machine's file.
     pub(super) name: Name,
-    pub(super) is_library: bool,
+    pub(super) kind: FileKind,
     /// True for a module of the standard library.
     pub(super) is_standard: bool,
     pub(super) uses: Vec<Use>,
@@ -49,7 +49,20 @@ pub(super) struct File {
     pub(super) tests: Vec<Test>,
 }
 
+/// What the first line of a file says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FileKind {
+    Machine,
+    Library,
+    /// Tests of the machine in another file, which is the first of `uses`.
+    Tests,
+}
+
 impl File {
+    pub(super) fn is_library(&self) -> bool {
+        self.kind == FileKind::Library
+    }
+
     /// The names that another file can use: derived values, laws, behaviours, monitors and enumerations.
     pub(super) fn exports(&self) -> impl Iterator<Item = &Name> {
         let derived = self.derived.iter().map(|item| &item.name);

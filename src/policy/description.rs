@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Source, Span};
 
 use super::ast;
+use super::format;
 use super::format::comment_behind;
 use super::grammar::is_word;
 use super::load::Files;
@@ -50,7 +51,7 @@ pub(super) fn describe(program: &mut Program, source: &Source, files: &Files) {
     }
     let give_texts = |contracts: &mut [Contract], written: &[ast::Contract]| {
         for (contract, written) in contracts.iter_mut().zip(written) {
-            contract.text = Arc::from(bounded(source.on_one_line(written.span)));
+            contract.text = Arc::from(bounded(format::on_one_line(source.slice(written.span))));
         }
     };
     give_texts(&mut program.contracts, &file.contracts);

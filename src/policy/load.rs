@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 
-use super::ast::{File, Use};
+use super::ast::{File, FileKind, Use};
 use super::expand::{self, Expanded};
 use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
@@ -28,7 +28,7 @@ pub(super) struct Loaded {
 
 /// Consistent files: all used files exist and are libraries, and none uses itself.
 pub(super) struct Files {
-    /// The requested policy or library.
+    /// The requested policy or library. For a test file, the machine with the tests of that file.
     pub(super) main: File,
     /// The files that it uses directly or indirectly.
     pub(super) libraries: Vec<File>,
@@ -116,7 +116,12 @@ impl Loaded {
 
     /// True if the first file is a library, as far as it can be parsed.
     pub(super) fn is_library(&self) -> bool {
-        self.files.first().into_iter().flatten().any(|file| file.is_library)
+        self.files.first().into_iter().flatten().any(File::is_library)
+    }
+
+    /// True if the first file has tests of another file, as far as it can be parsed.
+    pub(super) fn is_test_file(&self) -> bool {
+        self.files.first().into_iter().flatten().any(|file| file.kind == FileKind::Tests)
     }
 
     /// True if the first file has no syntax errors.
@@ -155,22 +160,21 @@ impl Loaded {
         let mut misfits = Vec::new();
         let uses: Vec<Vec<Use>> =
             self.files.iter().map(|file| file.as_ref().map_or_else(Vec::new, |file| file.uses.clone())).collect();
-        for (used, link) in uses.iter().flatten().zip(self.links.clone().into_iter().flatten()) {
-            if let Some(index @ 1..) = link
-                && let Some(Some(file)) = self.files.get(index)
-                && !file.is_library
-            {
-                let message = format!("`{}` is a machine, not a library", self.source.part_name(index));
-                let fault =
-                    Diagnostic::error("P0603", message, used.span, "cannot be used").note(file.name.span, "a machine");
-                misfits.push(fault.hint("move the shared laws into a file that begins with `library` and a name"));
+        for (number, (uses, links)) in uses.iter().zip(&self.links).enumerate() {
+            let mut pairs = uses.iter().zip(links).filter_map(|(used, link)| Some((used, (*link)?)));
+            if self.files.get(number).into_iter().flatten().any(|file| file.kind == FileKind::Tests) {
+                misfits.extend(pairs.next().and_then(|(used, link)| self.not_tested(used, link)));
             }
+            misfits.extend(pairs.filter_map(|(used, link)| self.not_used(used, link)));
         }
         misfits.extend(self.cycle(&uses));
         misfits.extend(self.files.iter().flatten().filter_map(misplaced));
         let fit = misfits.is_empty();
         for fault in misfits {
             self.recovery.report(fault);
+        }
+        if fit {
+            self.put_machine_first();
         }
         let links: Option<Vec<Vec<usize>>> = self
             .links
@@ -186,6 +190,49 @@ impl Loaded {
             _ => None,
         };
         (self.source, files, self.recovery)
+    }
+
+    /// The diagnostic for a `use` of a file that is no library. The first file has its own diagnostic, that of a cycle.
+    fn not_used(&self, used: &Use, index: usize) -> Option<Diagnostic> {
+        let file = self.files.get(index).filter(|_| index > 0)?.as_ref()?;
+        let kind = match file.kind {
+            FileKind::Library => return None,
+            FileKind::Machine => "a machine",
+            FileKind::Tests => "a test file",
+        };
+        let message = format!("`{}` is {kind}, not a library", self.source.part_name(index));
+        let fault = Diagnostic::error("P0603", message, used.span, "cannot be used").note(file.name.span, kind);
+        Some(fault.hint("move the shared laws into a file that begins with `library` and a name"))
+    }
+
+    /// The diagnostic for a test file whose first line does not name a machine.
+    fn not_tested(&self, used: &Use, index: usize) -> Option<Diagnostic> {
+        let file = self.files.get(index).filter(|_| index > 0)?.as_ref()?;
+        let kind = match file.kind {
+            FileKind::Machine => return None,
+            FileKind::Library => "a library",
+            FileKind::Tests => "a test file",
+        };
+        let message = format!("`{}` is {kind}, not a machine", self.source.part_name(index));
+        let fault = Diagnostic::error("P0603", message, used.span, "cannot be tested").note(file.name.span, kind);
+        Some(fault.hint("name a file that begins with `machine`; a behaviour is tested in a machine that uses it"))
+    }
+
+    /// Gives the machine of a test file the place of that file, and its tests.
+    fn put_machine_first(&mut self) {
+        let Some(&Some(machine)) = self.links.first().and_then(|links| links.first()) else { return };
+        let Some((Some(first), others)) = self.files.split_first_mut() else { return };
+        let (FileKind::Tests, Some(Some(tested))) = (first.kind, others.get_mut(machine - 1)) else { return };
+        tested.tests = std::mem::take(&mut first.tests);
+        first.uses.clear();
+        self.links.first_mut().into_iter().for_each(Vec::clear);
+        self.files.swap(0, machine);
+        self.links.swap(0, machine);
+        for link in self.links.iter_mut().flatten().flatten() {
+            if *link == 0 {
+                *link = machine;
+            }
+        }
     }
 
     /// The first path from a file through others back to itself.
@@ -220,31 +267,41 @@ impl Loaded {
     }
 }
 
-/// The diagnostic for an item in a library that is allowed only in a machine.
+/// The diagnostic for an item that is not allowed in a library or a test file.
 fn misplaced(file: &File) -> Option<Diagnostic> {
+    let tests = file.tests.iter().map(|test| test.title.span);
+    let (first, message, label, note, hint) = match file.kind {
+        FileKind::Machine => return None,
+        FileKind::Library => (
+            items_of_machines(file).chain(tests).min_by_key(|span| span.start)?,
+            "a library has only laws, derived values, types, behaviours and monitors with braces",
+            "belongs to a machine",
+            "a library",
+            "pass values to a law or a behaviour as arguments; only a machine has its own states, whiskers, needs, parameters, memory and tests",
+        ),
+        FileKind::Tests => {
+            let exports = file.exports().map(|name| name.span);
+            let uses = file.uses.iter().skip(1).map(|used| used.span);
+            (
+                items_of_machines(file).chain(exports).chain(uses).min_by_key(|span| span.start)?,
+                "a test file has only tests and properties",
+                "is neither",
+                "a test file",
+                "the tests can read the parameters, derived values and states of the machine; declare other items there",
+            )
+        }
+    };
+    Some(Diagnostic::error("P0603", message, first, label).note(file.name.span, note).hint(hint))
+}
+
+/// The spans of the items that only a machine has, without its tests.
+fn items_of_machines(file: &File) -> impl Iterator<Item = Span> {
     let parameters = file.parameters.iter().map(|parameter| parameter.name.span);
     let needs = file.needs.iter().map(|need| need.name.span);
     let states = file.states.iter().map(|state| state.name.span);
     let names = file.whiskers.iter().chain(&file.initial).map(|name| name.span);
     let rules = file.always.iter().map(|rule| &rule.target).chain(&file.failsafes).map(|target| target.span);
     let running = file.monitors.iter().filter(|monitor| monitor.used.is_some()).map(|monitor| monitor.name.span);
-    let tests = file.tests.iter().map(|test| test.title.span);
     let memory = file.memory.iter().map(|(name, _)| name.span);
-    let items = parameters
-        .chain(needs)
-        .chain(states)
-        .chain(names)
-        .chain(rules)
-        .chain(tests)
-        .chain(memory)
-        .chain(running)
-        .chain(file.acts);
-    let first: Span = items.min_by_key(|span| span.start)?;
-    file.is_library.then(|| {
-        Diagnostic::error("P0603", "a library has only laws, derived values, types, behaviours and monitors with braces", first, "belongs to a machine")
-            .note(file.name.span, "a library")
-            .hint(
-                "pass values to a law or a behaviour as arguments; only a machine has its own states, whiskers, needs, parameters, memory and tests",
-            )
-    })
+    parameters.chain(needs).chain(states).chain(names).chain(rules).chain(memory).chain(running).chain(file.acts)
 }

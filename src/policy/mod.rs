@@ -54,7 +54,9 @@ pub struct Compiled {
     pub artifact: Artifact,
     /// The tests of the policy, in the order of the text.
     pub tests: Vec<PolicyTest>,
-    /// Warnings about probable mistakes, in the order of the text (the first fifty).
+    /// True if the text is a test file. Then the program is that of the tested machine.
+    pub is_test_file: bool,
+    /// Warnings about probable mistakes, in the order of the text (the first fifty). A test file has none.
     pub warnings: Vec<Diagnostic>,
     /// The contracts that no run can violate. The program does not contain them.
     pub proved: Vec<ProvedContract>,
@@ -142,12 +144,14 @@ pub fn gather_and_compile(source: &Source, library: &mut Library<'_>) -> (Source
 }
 
 fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagnostic>> {
+    let is_test_file = loaded.is_test_file();
     let (source, files, lowered) = front(source, loaded)?;
-    let warnings = analysis::warnings(&files, &lowered);
+    // The warnings belong to the machine's own file.
+    let warnings = if is_test_file { Vec::new() } else { analysis::warnings(&files, &lowered) };
     // After the analysis, which reads conditions as they are written.
     let program = optimise::optimise(lowered.program);
     let artifact = artifact::artifact(&source, &files, program);
-    Ok(Compiled { artifact, tests: lowered.tests, warnings, proved: lowered.proved })
+    Ok(Compiled { artifact, tests: lowered.tests, is_test_file, warnings, proved: lowered.proved })
 }
 
 /// Checks a policy or a library.
@@ -217,7 +221,7 @@ fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Low
     let (whole, files, recovery) = loaded.files();
     let mut faults = Vec::new();
     if let Some(files) = files {
-        let lowered = if files.main.is_library { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
+        let lowered = if files.main.is_library() { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
         match lowered {
             Ok(mut lowered) if recovery.is_whole() => {
                 description::describe(&mut lowered.program, &whole, &files);

@@ -14,8 +14,8 @@ use std::borrow::Cow;
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Bound, Contour, Derived, Enumeration, File, From, Guard, Keypoints, Law, Name, Need, Parameter, Quantity,
-    Setting, Statement, Steer, Transition, Turn, TypeName, Use,
+    Argument, Bound, Contour, Derived, Enumeration, File, FileKind, From, Guard, Keypoints, Law, Name, Need, Parameter,
+    Quantity, Setting, Statement, Steer, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
@@ -32,7 +32,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
     let found = grammar::matches(source).map_err(|diagnostic| Box::new(diagnostic.moved(start)))?;
     let mut file = File {
         name: Name { text: String::new(), span: Span::new(start, start) },
-        is_library: false,
+        kind: FileKind::Machine,
         is_standard: matches!(found, Cow::Borrowed(_)),
         uses: Vec::new(),
         whiskers: Vec::new(),
@@ -62,7 +62,13 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         let mut reader = Reader::new(item);
         match rule {
             Rule::machine => file.name = reader.name()?,
-            Rule::library => (file.name, file.is_library) = (reader.name()?, true),
+            Rule::library => (file.name, file.kind) = (reader.name()?, FileKind::Library),
+            Rule::tested => {
+                let path = text(&mut reader)?;
+                let from = From::Path(path.text.clone());
+                file.uses.push(Use { from, span: path.span, names: Some(Vec::new()) });
+                (file.name, file.kind) = (path, FileKind::Tests);
+            }
             Rule::import => file.uses.push(import(&mut reader)?),
             Rule::whiskers => {
                 reader.take(Rule::kw_whisker)?;

@@ -119,6 +119,7 @@ fn is_marker(rule: Rule) -> bool {
         rule,
         Rule::kw_machine
             | Rule::kw_library
+            | Rule::tests_word
             | Rule::kw_use
             | Rule::kw_by
             | Rule::kw_needs

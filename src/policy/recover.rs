@@ -335,7 +335,7 @@ impl Token {
 
     /// True if it is the keyword at the beginning of a file.
     fn is_heading(&self, text: &str) -> bool {
-        ["machine", "library"].contains(&self.of(text))
+        ["machine", "library", "tests"].contains(&self.of(text))
     }
 }
 

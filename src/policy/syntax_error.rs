@@ -86,8 +86,8 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     if let Some(advice) = advice(found, source.text.split_at(at), rules) {
         return diagnostic.hint(advice);
     }
-    let others = rules.contains(&Rule::file).then_some("library");
-    did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others))
+    let others: &[&str] = if rules.contains(&Rule::file) { &["library", "tests"] } else { &[] };
+    did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others.iter().copied()))
 }
 
 /// The diagnostic for a text that ends too early.

@@ -57,6 +57,43 @@ fn a_law_means_the_same_wherever_it_stands() {
 }
 
 #[test]
+fn a_test_file_has_the_machine_that_it_names_and_its_own_tests() {
+    let machine = "machine m param patience = 2 s in 1 .. 60 s param speed = 50 mm/s in 1 .. 200 mm/s initial Still state Still { stop after patience -> Failure(\"late\") }
+        test \"of the machine\" in \"disk.yaml\" { expect run.failed }";
+    let files = [("machines/m.fsm", machine.to_owned())];
+    let text = "tests of \"machines/m.fsm\"
+        test \"of the file\" in \"../disk.yaml\" { set patience = 5 s expect run.time_in(Still) > patience - 100 ms }
+        property \"of all\" over convex-corner { expect not run.completed }";
+    let compiled = compile_with_warnings(&gathered(text, &files)).unwrap();
+    assert!(compiled.is_test_file && compiled.warnings.is_empty());
+    let titles: Vec<&str> = compiled.tests.iter().map(|test| test.title.as_str()).collect();
+    assert_eq!(titles, ["of the file", "of all"]);
+    assert_eq!(compiled.artifact.program, compile(&gathered(machine, &[])).unwrap());
+    let own = compile_with_warnings(&gathered(machine, &[])).unwrap();
+    assert!(!own.is_test_file && own.tests.len() == 1);
+}
+
+#[test]
+fn a_test_file_with_anything_else_is_an_error() {
+    let machine = ("m.fsm", format!("machine m use \"l.fsm\" {STILL}"));
+    let files = [machine, ("l.fsm", "library l let half = 0.5".to_owned()), ("t.fsm", "tests of \"m.fsm\"".to_owned())];
+    for item in ["param x = 1", "let x = 1", "use std.swipe", "state Going { stop }", "var x = 1", "record r0"] {
+        assert_eq!(codes(&format!("tests of \"m.fsm\" {item}"), &files), ["P0603"], "{item}");
+    }
+    // Only a machine can be tested, and no file can use tests.
+    for text in ["tests of \"l.fsm\"", "tests of \"t.fsm\"", &format!("machine m use \"t.fsm\" {STILL}")] {
+        assert_eq!(codes(text, &files), ["P0603"], "{text}");
+    }
+    assert_eq!(codes("tests of \"main.fsm\"", &files), ["P0604"]);
+    assert_eq!(codes("tests of \"none.fsm\"", &files), ["P0602"]);
+    assert_eq!(
+        codes("tests of \"m.fsm\" test \"no\" in \"a.yaml\" { expect run.visits(Going) == 0 }", &files),
+        ["P0201"]
+    );
+    assert_eq!(codes("tests of \"m.fsm\"", &files), [""; 0]);
+}
+
+#[test]
 fn names_of_a_library_are_its_own() {
     let files = [
         ("a.fsm", "library a use \"b.fsm\" (scale) let gain = 2 law act(x: speed) { do drive(scale * gain * x) } law drive(y: speed) { steer body along vector(1, 0) at y turning 0 rad/s }".to_owned()),

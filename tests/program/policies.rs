@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{fs, thread};
 
-/// The policies, but for libraries.
+/// The policies and the test files, without libraries.
 fn policies() -> Vec<PathBuf> {
-    let entries = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("policies")).unwrap();
-    let paths = entries.map(|entry| entry.unwrap().path());
+    let folders = ["policies", "policies/tests"].map(|folder| Path::new(env!("CARGO_MANIFEST_DIR")).join(folder));
+    let paths = folders.into_iter().flat_map(|folder| fs::read_dir(folder).unwrap()).map(|entry| entry.unwrap().path());
     paths.filter(|path| path.extension().is_some_and(|extension| extension == "fsm")).collect()
 }
 
@@ -17,7 +17,7 @@ fn every_policy_passes_the_tests_that_it_carries() {
         let output = Command::new(env!("CARGO_BIN_EXE_vibrissa")).arg("test").arg(policy).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
     };
-    assert!(policies().len() >= 8);
+    assert!(policies().len() >= 14);
     thread::scope(|scope| {
         for policy in policies() {
             scope.spawn(move || tested(&policy));

@@ -82,7 +82,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     }
 
     unused_imports(files, &used, warnings);
-    if file.is_library {
+    if file.is_library() {
         return;
     }
     let parameters = file.parameters.iter().map(|parameter| ("P0504", "parameter", &parameter.name));

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::Source;
-use crate::policy::ast::{self, File, Step};
+use crate::policy::ast::{self, Contract, File, Step};
 use crate::policy::expand::{Expanded, Instance};
 use crate::policy::load::Files;
 use crate::policy::lower::SUCCESS;
@@ -14,18 +14,20 @@ use super::{Argument, Chart, Exit, Guard, Origin, State, Target, Transition};
 pub(in crate::policy) fn build(source: &Source, files: &Files) -> Chart {
     let file = &files.main;
     let own: Vec<&Expanded> = match files.behaviours.first() {
-        Some(behaviours) if file.is_library => behaviours.iter().collect(),
+        Some(behaviours) if file.is_library() => behaviours.iter().collect(),
         _ => vec![&files.machine],
     };
     let mut chart = Chart {
         machine: file.name.text.clone(),
         states: Vec::new(),
         transitions: Vec::new(),
+        contracts: Vec::new(),
         parents: Vec::new(),
         is_overview: false,
     };
-    if !file.is_library {
+    if !file.is_library() {
         let builder = Builder::new(source, &files.machine, (0, 0));
+        chart.contracts = builder.contracts(&file.contracts);
         chart.transitions = builder.transitions(Origin::AnyState, None, &file.always, &file.failsafes);
     }
     for expanded in own {
@@ -35,6 +37,12 @@ pub(in crate::policy) fn build(source: &Source, files: &Files) -> Chart {
             chart.states.extend(state);
         }
         for (index, state) in expanded.states.iter().enumerate() {
+            // Those of a behaviour belong to the state that uses it.
+            if expanded.is_root(index)
+                && let Some(user) = chart.states.get_mut(builder.places[index])
+            {
+                user.contracts.extend(builder.contracts(&state.contracts));
+            }
             let origin = Origin::State(builder.places[index]);
             chart.transitions.extend(builder.transitions(origin, Some(index), &state.transitions, &state.failsafes));
         }
@@ -112,15 +120,21 @@ impl<'f> Builder<'f> {
             parent: state.parent.map(|parent| self.places[parent]),
             initial: is_first || begin.is_some(),
             values: begin.map_or_else(Vec::new, |step| self.texts(&step.values)),
+            contracts: self.contracts(&state.contracts),
             hidden: 0,
         })
+    }
+
+    /// The texts of contracts.
+    fn contracts(&self, contracts: &[Contract]) -> Vec<String> {
+        contracts.iter().map(|contract| self.source.on_one_line(contract.span)).collect()
     }
 
     /// The name of a state, which no other one in the chart has.
     fn name(&self, index: usize, file: &File) -> String {
         let path = self.expanded.path(index);
         match self.expanded.instances.first() {
-            Some(behaviour) if file.is_library && index > 0 => format!("{}.{path}", behaviour.name.text),
+            Some(behaviour) if file.is_library() && index > 0 => format!("{}.{path}", behaviour.name.text),
             _ => path,
         }
     }

@@ -15,6 +15,8 @@ pub struct Chart {
     pub states: Vec<State>,
     /// The transitions: global ones first, then those of every state. Those of one origin are tried in this order.
     pub transitions: Vec<Transition>,
+    /// The contracts of the machine, as in the text.
+    pub contracts: Vec<String>,
     /// For each state of the machine, the index of the state that contains it. It includes the states that a [`View`]
     /// omits.
     pub parents: Vec<Option<usize>>,
@@ -34,10 +36,10 @@ impl Chart {
         self.states.iter().enumerate().filter(move |(_, state)| state.parent == parent)
     }
 
-    /// True if there are global transitions.
+    /// True if there are global transitions, or contracts of the machine.
     #[must_use]
     pub(crate) fn has_any_state(&self) -> bool {
-        self.transitions.iter().any(|transition| transition.origin == Origin::AnyState)
+        !self.contracts.is_empty() || self.transitions.iter().any(|transition| transition.origin == Origin::AnyState)
     }
 
     /// True if a transition leads to failure.
@@ -82,6 +84,8 @@ pub struct State {
     pub parent: Option<usize>,
     /// True if it is the initial state of the machine or of the state that contains it.
     pub initial: bool,
+    /// Its contracts, then those of its behaviour, as in the text.
+    pub contracts: Vec<String>,
     /// The values of its arguments as an initial state.
     pub values: Vec<String>,
     /// Number of inner states that are not shown.

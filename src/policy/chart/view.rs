@@ -88,6 +88,7 @@ impl Selection<'_> {
             machine: self.root.map_or(machine.clone(), |root| format!("{machine}: {}", self.chart.states[root].name)),
             states: kept.iter().map(|&state| self.state(state, &index)).collect(),
             transitions,
+            contracts: if self.root.is_none() { self.chart.contracts.clone() } else { Vec::new() },
             parents: self.chart.parents.clone(),
             is_overview: (0..self.chart.states.len())
                 .any(|state| self.is_inside(state) && self.ancestor(state) != state),

@@ -53,6 +53,23 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     Ok(text)
 }
 
+/// The part of a statement on one line, without comments. All layouts of a policy give the same text.
+pub(super) fn on_one_line(part: &str) -> String {
+    let mut tokens = token::tokens(part);
+    tokens.retain(|token| token.kind != TokenKind::Comment);
+    let structure = structure::structure(tokens, &[]);
+    let mut text = String::new();
+    let mut before = None;
+    for element in &structure.elements {
+        if before.is_some_and(|before| spacing::is_apart(before, element)) {
+            text.push(' ');
+        }
+        text.push_str(element.token.text);
+        before = Some(element);
+    }
+    text
+}
+
 /// Keywords that can occur in an item outside of all brackets, except the one with which it begins.
 const WITHIN_ITEMS: [&str; 7] = ["in", "and", "or", "not", "true", "false", "body"];
 

@@ -89,13 +89,19 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 77] = [
+pub(super) const KEYWORDS: [Keyword; 78] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
         FILE,
         "library ${1:name}",
         "Begins a library, a file of laws, derived values, enumerations, behaviours and monitors for other files, and names it.",
+    ),
+    entry(
+        "tests",
+        FILE,
+        "tests of \"${1:machine.fsm}\"",
+        "Begins a test file, and names the file of the tested machine.",
     ),
     entry(
         "use",

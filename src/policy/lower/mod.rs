@@ -114,7 +114,7 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
 pub(super) fn types(files: &Files) -> Types {
     let mut compiler = Compiler::new();
     compiler.types = Some(Types::new());
-    if files.main.is_library {
+    if files.main.is_library() {
         structure::items(&mut compiler, files);
     } else {
         structure::machine(&mut compiler, files);

@@ -1,6 +1,6 @@
 //! The chart as text for Graphviz.
 
-use super::label::{ANY_STATE, FAILURE, LINE, Label, SUCCESS, titled};
+use super::label::{ANY_STATE, FAILURE, LINE, Label, SUCCESS, any_state, titled};
 use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
@@ -18,7 +18,8 @@ pub fn chart_dot(chart: &Chart) -> String {
         lines.push("edge [fontname=\"Courier\", fontsize=10]");
         states(lines, chart, None);
         if chart.has_any_state() {
-            lines.push(&format!("{} [style=\"rounded,dashed\"]", quoted(ANY_STATE)));
+            let label = quoted(&any_state(chart));
+            lines.push(&format!("{} [label={label}, style=\"rounded,dashed\"]", quoted(ANY_STATE)));
         }
         if chart.has_failure() {
             lines.push(&format!("{} [peripheries=2]", quoted(FAILURE)));

@@ -108,9 +108,19 @@ pub(super) fn hidden(state: &State) -> Option<String> {
     (state.hidden > 0).then(|| format!("+ {} state{plural} in it", state.hidden))
 }
 
-/// The name and arguments of a state, and the number of inner states that are not shown.
+/// The name and arguments of a state, the number of inner states that are not shown, and its contracts.
 pub(super) fn titled(state: &State) -> String {
-    [Some(signature(state)), hidden(state)].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    let contracts = (!state.contracts.is_empty()).then(|| state.contracts.join(", "));
+    [Some(signature(state)), hidden(state), contracts].into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+/// The box for the global transitions, with the contracts of the machine.
+pub(super) fn any_state(chart: &Chart) -> String {
+    if chart.contracts.is_empty() {
+        ANY_STATE.to_owned()
+    } else {
+        format!("{ANY_STATE}: {}", chart.contracts.join(", "))
+    }
 }
 
 /// A state's arguments with their types.

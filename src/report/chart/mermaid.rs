@@ -1,6 +1,6 @@
 //! The chart as text for Mermaid.
 
-use super::label::{ANY_STATE, FAILURE, Label, SUCCESS, titled};
+use super::label::{FAILURE, Label, SUCCESS, any_state, titled};
 use super::lines::Lines;
 use crate::policy::chart::{Chart, Origin, Target};
 use crate::report::style::printable;
@@ -13,7 +13,7 @@ pub fn chart_mermaid(chart: &Chart) -> String {
     lines.push("stateDiagram-v2");
     states(&mut lines, chart, None);
     if chart.has_any_state() {
-        lines.push(&format!("state \"{ANY_STATE}\" as any"));
+        lines.push(&format!("state \"{}\" as any", escaped(&any_state(chart))));
     }
     if chart.has_failure() {
         lines.push(&format!("state \"{FAILURE}\" as failure"));

@@ -52,7 +52,9 @@ impl Symbol {
 
     /// The size of its title, if it is a state with inner states (px).
     pub(super) fn title_size(self, chart: &Chart) -> Size {
-        (width_of(&self.title(chart), NAME), LINE)
+        let contracts = self.contracts(chart);
+        let widths = contracts.iter().map(|contract| width_of(contract, REMARK));
+        (widths.fold(width_of(&self.title(chart), NAME), f64::max), LINE * (1 + contracts.len()) as f64)
     }
 
     /// The frame of a state with inner states, and its title.
@@ -61,9 +63,25 @@ impl Symbol {
         let frame = Rectangle::new().set("x", px(left)).set("y", px(top)).set("rx", 10);
         let frame = frame.set("width", px(width)).set("height", px(height));
         let frame = frame.set("fill", "#ffffff").set("stroke", style::INK);
-        let title =
-            text(left + BESIDE, top + BESIDE + 0.75 * LINE, Anchor::Start, NAME, style::INK, &self.title(chart));
-        Group::new().add(frame).add(title.set("font-weight", 600))
+        let mut y = top + BESIDE + 0.75 * LINE;
+        let title = text(left + BESIDE, y, Anchor::Start, NAME, style::INK, &self.title(chart));
+        let mut group = Group::new().add(frame).add(title.set("font-weight", 600));
+        for contract in self.contracts(chart) {
+            y += LINE;
+            let contract = text(left + BESIDE, y, Anchor::Start, REMARK, style::INK, contract);
+            group = group.add(contract.set("font-family", style::CODE_FONT));
+        }
+        group
+    }
+
+    /// The contracts in its box. An overview has no space for them.
+    fn contracts(self, chart: &Chart) -> &[String] {
+        match self {
+            _ if chart.is_overview => &[],
+            Self::State(index) => &chart.states[index].contracts,
+            Self::AnyState(_) => &chart.contracts,
+            _ => &[],
+        }
     }
 
     fn title(self, chart: &Chart) -> String {
@@ -139,8 +157,10 @@ impl Symbol {
             Self::State(index) => {
                 let state = &chart.states[index];
                 let arguments = (!state.arguments.is_empty() && !chart.is_overview).then(|| arguments(state));
-                arguments.into_iter().chain(behaviour(state)).chain(hidden(state)).collect()
+                let contracts = self.contracts(chart).iter().cloned();
+                arguments.into_iter().chain(behaviour(state)).chain(hidden(state)).chain(contracts).collect()
             }
+            Self::AnyState(_) => self.contracts(chart).to_vec(),
             Self::Anew(_) => vec!["entered anew".to_owned()],
             Self::Exit(index) => {
                 chart.ends().get(index).map(|(behaviour, _)| format!("exit of {behaviour}")).into_iter().collect()

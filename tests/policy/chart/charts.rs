@@ -19,6 +19,7 @@ pub(crate) fn state(name: &str, parent: Option<usize>, initial: bool) -> State {
         behaviour: None,
         parent,
         initial,
+        contracts: Vec::new(),
         values: Vec::new(),
         hidden: 0,
     }
@@ -74,6 +75,7 @@ pub(crate) fn charts() -> impl Strategy<Value = Chart> {
                 machine: "m".to_owned(),
                 states: states.into_iter().enumerate().map(numbered).collect(),
                 transitions: transitions.into_iter().map(transition).collect(),
+                contracts: Vec::new(),
                 parents,
                 is_overview: false,
             }

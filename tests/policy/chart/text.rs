@@ -54,6 +54,7 @@ fn hostile_texts_stay_texts() {
             guard: Guard::When { condition, lasting: None },
             target: reason,
         }],
+        contracts: Vec::new(),
         parents: vec![None],
         is_overview: false,
     };
@@ -87,6 +88,7 @@ fn nested_states_are_drawn_as_such() {
         machine: "m".to_owned(),
         states: vec![state("Outer", None, true), state("Inner", Some(0), true), state("Other", None, false)],
         transitions: vec![],
+        contracts: Vec::new(),
         parents: vec![None, Some(0), None],
         is_overview: false,
     };
@@ -101,6 +103,35 @@ fn nested_states_are_drawn_as_such() {
     let place = |name: &str| seen.texts.iter().find(|(text, _)| text == name).unwrap().1;
     let around = |name: &str| seen.frames.iter().filter(|frame| within(&place(name), frame)).count();
     assert_eq!(["Outer", "Inner", "Other"].map(around), [1, 2, 1]);
+}
+
+#[test]
+fn contracts_are_in_the_boxes_of_what_keeps_them() {
+    let chart = chart_of(
+        "machine m
+        never body.blocked for 3 s
+        initial Going
+        state Going is go(50 mm/s) {
+          assume not body.blocked
+          on done -> Failure(\"done\")
+        }
+        behaviour go(speed: speed) {
+          exit done
+          assume speed > 0 mm/s
+          initial Moving
+          state Moving {
+            steer body along direction(body.yaw) at speed turning 0 deg/s
+            after 5 s -> exit done
+          }
+        }",
+    );
+    assert_eq!(chart.contracts, ["never body.blocked for 3 s"]);
+    assert_eq!(chart.states[0].contracts, ["assume not body.blocked", "assume speed > 0 mm/s"]);
+    for drawn in shown(&chart) {
+        for contract in ["never body.blocked for 3 s", "assume not body.blocked"] {
+            assert!(drawn.contains(contract), "{drawn}");
+        }
+    }
 }
 
 proptest! {
