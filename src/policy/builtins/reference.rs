@@ -160,8 +160,9 @@ fn behaviour(page: &mut String, (module, source): (&str, &Source), item: &Behavi
     let (name, root) = (&item.name.text, item.root());
     let _ = write!(
         page,
-        "\n#### `{name}`\n\nThe command `vibrissa graph policies/std/{module}.fsm --state {name} -o {name}.svg` draws its statechart.\n\n\
-         | exit | meaning |\n|---|---|\n"
+        "\n#### `{name}`\n\nIts tests are in `policies/tests/{module}.fsm`. This is its [statechart](pictures/behaviours/{name}.svg), as \
+         `vibrissa graph policies/std/{module}.fsm --state {name}` draws it:\n\n\
+         ![Statechart of {name}](pictures/behaviours/{name}.svg)\n\n| exit | meaning |\n|---|---|\n"
     );
     for exit in &root.exits {
         let values =

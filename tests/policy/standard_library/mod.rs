@@ -5,6 +5,7 @@ mod guard;
 mod law;
 mod mirror;
 mod mounting;
+mod pictures;
 mod platform;
 mod retrieval;
 mod swiping;

@@ -17,6 +17,7 @@ mod needs;
 mod observer;
 mod op;
 mod operands;
+mod parameter;
 mod program;
 mod senses;
 mod source_map;
@@ -38,9 +39,9 @@ pub use fallback::{Cause, Fallback};
 pub use needs::{Needs, RateRange, UnmetRate};
 pub use observer::{ContractId, Duration, Observer, Standing, TransitionId, TriedGuard, ViolatedContract};
 pub use op::{Block, Op, Register, Wide};
+pub use parameter::{DESCRIPTION_LIMIT, Parameter, ParameterValue, SetError};
 pub use program::{
-    CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Parameter, ParameterValue,
-    Program, REGISTER_LIMIT, SetError, State, Target, Transition,
+    CODE_LIMIT, CONTOUR_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Program, REGISTER_LIMIT, State, Target, Transition,
 };
 pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
 pub use source_map::{Position, SourceMap, StatePosition};

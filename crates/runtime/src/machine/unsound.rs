@@ -1,7 +1,8 @@
 //! Defects of programs from untrusted sources.
 
 use super::op::Register;
-use super::program::{DESCRIPTION_LIMIT, NESTING_LIMIT};
+use super::parameter::DESCRIPTION_LIMIT;
+use super::program::NESTING_LIMIT;
 
 /// A defect that makes a program unsafe to run.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

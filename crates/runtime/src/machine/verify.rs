@@ -8,9 +8,9 @@ use super::contour::Keypoints;
 use super::contract::{CONTRACT_LIMIT, Contract};
 use super::op::{Block, Op, Register};
 use super::operands::{Index, RegisterSpan};
+use super::parameter::DESCRIPTION_LIMIT;
 use super::program::{
-    CODE_LIMIT, CONTOUR_LIMIT, DESCRIPTION_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target,
-    Transition,
+    CODE_LIMIT, CONTOUR_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition,
 };
 use super::unsound::Unsound;
 
