@@ -184,6 +184,7 @@ pub(super) fn reports(
 pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<ReportFiles>) -> Result<RunResult, Failure> {
     let result = trial.document(finished);
     report_events(&result);
+    show_messages(trial, &finished.run);
     for contract in finished.run.contracts.iter().filter(|contract| contract.violations > 0) {
         output::message(format_args!("{}: {contract}", trial.scene.name));
     }
@@ -194,6 +195,24 @@ pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<Repor
         report.write(trial, finished, &result)?;
     }
     Ok(result)
+}
+
+/// Number of messages of a run that are printed.
+const MESSAGES_PRINTED: usize = 40;
+
+/// Prints the first messages that the policy has logged.
+fn show_messages(trial: &Trial, run: &Run) {
+    let (name, trace) = (&trial.scene.name, &run.trace);
+    for message in trace.messages.iter().take(MESSAGES_PRINTED) {
+        let time = trace.ticks.get(message.tick).map_or(0.0, |tick| tick.time);
+        let state = message.state.and_then(|state| trace.states.get(state));
+        let state = state.map_or_else(String::new, |state| format!("{state}: "));
+        output::message(format_args!("{name}: {time:.2} s, {state}{message}"));
+    }
+    let further = trace.messages.len().saturating_sub(MESSAGES_PRINTED) + trace.further_messages;
+    if further > 0 {
+        output::message(format_args!("{name}: {further} further messages, which `--ticks FILE` writes"));
+    }
 }
 
 /// Prints the results and the paths of the reports.

@@ -9,7 +9,8 @@ use super::format;
 use super::format::comment_behind;
 use super::grammar::is_word;
 use super::load::Files;
-use vibrissa_runtime::machine::{Contract, DESCRIPTION_LIMIT, Program};
+use super::lower::Lowered;
+use vibrissa_runtime::machine::{Contract, DESCRIPTION_LIMIT};
 
 /// The description of the item whose name is at `name`: the comment at the end of its line, or else the comment lines
 /// directly above.
@@ -43,9 +44,9 @@ fn comment_above(before: &str) -> String {
     lines.into_iter().rev().filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Adds descriptions to the parameters of a program, and texts to its contracts.
-pub(super) fn describe(program: &mut Program, source: &Source, files: &Files) {
-    let file = &files.main;
+/// Adds descriptions to the parameters of a program, texts to its contracts, and names to the values of its messages.
+pub(super) fn describe(lowered: &mut Lowered, source: &Source, files: &Files) {
+    let (program, file) = (&mut lowered.program, &files.main);
     for (parameter, written) in program.parameters.iter_mut().zip(&file.parameters) {
         parameter.description = description(source, written.name.span).unwrap_or_default();
     }
@@ -57,6 +58,11 @@ pub(super) fn describe(program: &mut Program, source: &Source, files: &Files) {
     give_texts(&mut program.contracts, &file.contracts);
     for (state, written) in program.states.iter_mut().zip(&files.machine.states) {
         give_texts(&mut state.contracts, &written.contracts);
+    }
+    for (message, spans) in program.outputs.messages.iter_mut().zip(&lowered.logged) {
+        for (value, span) in message.values.iter_mut().zip(spans) {
+            value.name = Arc::from(bounded(format::on_one_line(source.slice(*span))));
+        }
     }
 }
 

@@ -41,7 +41,7 @@ pub use analysis::ProvedContract;
 pub use defaults::with_defaults;
 pub use format::format;
 pub use load::Library;
-pub use test::{Expectation, ParameterRange, PolicyTest, RunFigure, TestScenes};
+pub use test::{Expectation, ParameterRange, PlotFigure, PolicyTest, RunFigure, TestScenes};
 
 use crate::diagnostic::{Diagnostic, Source, Span};
 use load::{Files, Loaded};
@@ -224,7 +224,7 @@ fn lowered(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Low
         let lowered = if files.main.is_library() { Err(vec![library(&files.main)]) } else { lower::lower(&files) };
         match lowered {
             Ok(mut lowered) if recovery.is_whole() => {
-                description::describe(&mut lowered.program, &whole, &files);
+                description::describe(&mut lowered, &whole, &files);
                 return Ok((whole, files, lowered));
             }
             Ok(_) => {}

@@ -285,6 +285,15 @@ fn statement(pair: Pair<'_>) -> Parsed<Statement> {
             values: reader.values()?.unwrap_or_default(),
             span,
         },
+        Rule::plot => Statement::Plot { name: reader.name()?, value: reader.expression()? },
+        Rule::log => {
+            let text = text(&mut reader)?;
+            let mut values = Vec::new();
+            while reader.has(Rule::expression) {
+                values.push(reader.expression()?);
+            }
+            Statement::Log { text, values, span }
+        }
         Rule::mark => Statement::Mark { name: reader.name()?, whisker: reader.expression()? },
         Rule::steer => {
             let mut mover = Reader::new(reader.take(Rule::mover)?);

@@ -159,6 +159,8 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::kw_is
             | Rule::on_word
             | Rule::tell_word
+            | Rule::plot_word
+            | Rule::log_word
             | Rule::kw_entry
             | Rule::kw_exit
             | Rule::kw_test

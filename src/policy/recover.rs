@@ -49,7 +49,7 @@ const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "e
 /// Keywords that begin other parts of a state.
 const PART_WORDS: [&str; 9] = ["let", "when", "after", "entry", "exit", "assume", "never", "always", "failsafe"];
 /// Words that begin another part of a state at the beginning of a line, and are names anywhere else.
-const CONTEXTUAL_PART_WORDS: [&str; 2] = ["on", "tell"];
+const CONTEXTUAL_PART_WORDS: [&str; 4] = ["on", "tell", "plot", "log"];
 
 /// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]

@@ -214,7 +214,7 @@ fn statement(name: &str, behind: &str) -> Option<String> {
 
 /// True if a word begins a statement.
 fn begins_statement(word: &str) -> bool {
-    ["do", "hold", "if", "let", "mark", "record", "set", "steer", "stop", "tell"].contains(&word)
+    ["do", "hold", "if", "let", "log", "mark", "plot", "record", "set", "steer", "stop", "tell"].contains(&word)
 }
 
 /// True if a text ends with a number and a tab.
@@ -327,6 +327,8 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::kw_is => "is",
         Rule::on_word => "on",
         Rule::tell_word => "tell",
+        Rule::plot_word => "plot",
+        Rule::log_word => "log",
         Rule::kw_always => "always",
         Rule::kw_test => "test",
         Rule::kw_property => "property",

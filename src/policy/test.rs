@@ -138,15 +138,33 @@ pub enum RunFigure {
     Visits(usize),
     /// Total time in the state with this index (s).
     TimeIn(usize),
+    /// A figure of the values of the plot with this index (SI).
+    Plot(PlotFigure, usize),
+}
+
+/// A figure of the values of a plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlotFigure {
+    /// The least value.
+    Least,
+    /// The greatest value.
+    Greatest,
+    /// The last value.
+    Last,
 }
 
 impl RunFigure {
-    fn show(self, value: f64) -> String {
+    fn show(self, value: f64, program: &Program) -> String {
         match self {
             Self::Passed | Self::Completed | Self::Failed | Self::TimedOut | Self::Diverged => {
                 (value > 0.5).to_string()
             }
             _ if value.is_nan() => "not known".to_owned(),
+            Self::Plot(_, plot) => {
+                let kind = program.outputs.plots.get(plot).map(|plot| &plot.kind);
+                let shown = kind.and_then(|kind| kind.read(&[value], &program.whiskers));
+                shown.map_or_else(String::new, |shown| shown.to_string())
+            }
             Self::Time | Self::TimeIn(_) | Self::CornerTimeMax | Self::InclinationBeyond => {
                 format_si(value, Dimension::TIME)
             }
@@ -185,7 +203,7 @@ impl Expectation {
         }
         let diagnostic = Diagnostic::error("P0701", "the run is not as expected", self.span, "does not hold");
         Some(self.figures.iter().fold(diagnostic, |diagnostic, read| {
-            let value = read.figure.show(figure(read.figure));
+            let value = read.figure.show(figure(read.figure), program);
             diagnostic.note(read.span, format!("is {value}"))
         }))
     }

@@ -118,3 +118,11 @@ pub(super) struct Value {
     pub(super) r#type: Type,
     pub(super) register: Register,
 }
+
+impl Value {
+    /// True if the value is in registers of `memory`, as it is or as a component of it.
+    pub(super) fn is_part_of(self, memory: Self) -> bool {
+        let registers = memory.register..memory.register.saturating_add(memory.r#type.width());
+        !matches!(self.r#type, Type::Monitor(_)) && registers.contains(&self.register)
+    }
+}

@@ -6,6 +6,7 @@ mod drive_result;
 mod inclination;
 mod replay_result;
 mod run_result;
+mod shown_value;
 mod tally;
 mod tick_line;
 
@@ -19,5 +20,6 @@ pub use run_result::{
     Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity,
     OutOfPlane, Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
 };
+pub use shown_value::{ShownNumber, ShownValue};
 pub use tally::{Ending, Figures, Tally, TipShares};
-pub use tick_line::{OutOfPlaneLine, TickLine, tick_lines};
+pub use tick_line::{MessageLine, MessageValueLine, OutOfPlaneLine, PlotLine, TickLine, tick_lines};

@@ -1,6 +1,7 @@
 //! Perception and command of every tick as JSON documents.
 
 use super::Document;
+use super::shown_value::ShownValue;
 use serde::Serialize;
 
 use crate::run::{TickRecord, Trace};
@@ -31,6 +32,10 @@ pub struct TickLine<'a> {
     pub body_touches: bool,
     /// The whiskers that the policy binds, in its order.
     pub whiskers: Vec<WhiskerLine<'a>>,
+    /// The plots that the policy has set in this tick.
+    pub plots: Vec<PlotLine<'a>>,
+    /// The messages that the policy has logged in this tick.
+    pub messages: Vec<MessageLine<'a>>,
 }
 
 impl Document for TickLine<'_> {
@@ -78,6 +83,40 @@ pub struct OutOfPlaneLine {
     pub slips: bool,
 }
 
+/// A plot of the policy in a tick.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct PlotLine<'a> {
+    /// Its name.
+    pub plot: &'a str,
+    /// Its value.
+    #[serde(flatten)]
+    pub value: ShownValue,
+}
+
+/// A message of the policy in a tick.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct MessageLine<'a> {
+    /// Its text.
+    pub text: &'a str,
+    /// Name of the state that contains the statement. `None` outside of states.
+    pub state: Option<&'a str>,
+    /// The values that it shows.
+    pub values: Vec<MessageValueLine<'a>>,
+}
+
+/// A value of a message.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct MessageValueLine<'a> {
+    /// The expression, as in the policy.
+    pub expression: &'a str,
+    /// Its value.
+    #[serde(flatten)]
+    pub value: ShownValue,
+}
+
 /// The lines of a run's ticks. `friction` is the coefficient that perception assumes.
 pub fn tick_lines<'a>(scenario: &'a str, trace: &'a Trace, friction: f64) -> impl Iterator<Item = TickLine<'a>> {
     trace.ticks.iter().enumerate().map(move |(index, tick)| TickLine {
@@ -90,7 +129,32 @@ pub fn tick_lines<'a>(scenario: &'a str, trace: &'a Trace, friction: f64) -> imp
         yaw_rate_rad_s: tick.command.yaw_rate,
         body_touches: tick.body_touches,
         whiskers: whisker_lines(trace, index, tick, friction),
+        plots: plot_lines(trace, index),
+        messages: message_lines(trace, index),
     })
+}
+
+fn plot_lines(trace: &Trace, tick: usize) -> Vec<PlotLine<'_>> {
+    let lines = trace.plots.iter().filter_map(|plot| {
+        let at = plot.values.binary_search_by_key(&tick, |(tick, _)| *tick).ok()?;
+        let shown = plot.kind.read(&[plot.values.get(at)?.1], &[])?;
+        Some(PlotLine { plot: &plot.name, value: ShownValue::new(&shown) })
+    });
+    lines.collect()
+}
+
+fn message_lines(trace: &Trace, tick: usize) -> Vec<MessageLine<'_>> {
+    let first = trace.messages.partition_point(|message| message.tick < tick);
+    let messages = trace.messages[first..].iter().take_while(|message| message.tick == tick);
+    messages
+        .map(|message| MessageLine {
+            text: &message.text,
+            state: message.state.and_then(|state| trace.states.get(state)).map(String::as_str),
+            values: (message.values.iter())
+                .map(|(name, value)| MessageValueLine { expression: name, value: ShownValue::new(value) })
+                .collect(),
+        })
+        .collect()
 }
 
 fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord, friction: f64) -> Vec<WhiskerLine<'a>> {

@@ -9,4 +9,4 @@ mod trace;
 pub use contract::{ContractMargin, ContractRecord};
 pub use drive::{Progress, Run, Watcher, drive};
 pub use monitor::{Ending, Monitor};
-pub use trace::{Contact, MarkRecord, TickRecord, Trace};
+pub use trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};

@@ -1,19 +1,20 @@
 //! The monitor of a run: it records the trace and decides when the run ends.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::geometry::{Point2, Vector2};
 use crate::scene::{Outcome, Reached, Stop};
 use crate::world::{Fault, World};
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::machine::{Fallback, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{Fallback, LoggedMessage, Machine, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::percept::{LoopWatch, Perception};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 use super::contract::ContractRecord;
 use super::drive::Run;
 use super::stall_watch::StallWatch;
-use super::trace::{Contact, MarkRecord, TickRecord, Trace};
+use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
 
 /// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
 const INITIAL_CAPACITY: usize = 108_000;
@@ -66,6 +67,11 @@ impl Monitor {
             period,
             ticks: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
             marks: Vec::new(),
+            plots: (program.outputs.plots.iter())
+                .map(|plot| PlotRecord { name: plot.name.clone(), kind: plot.kind.clone(), values: Vec::new() })
+                .collect(),
+            messages: Vec::new(),
+            further_messages: 0,
             crashed: false,
         };
         Self {
@@ -103,6 +109,7 @@ impl Monitor {
     pub fn observe(&mut self, control: &Control, command: Command, ticked: &Tick, world: &dyn World) -> Option<Ending> {
         let tick = record(control, command, ticked.fallback, world);
         self.trace.marks.extend(marks(control, self.trace.ticks.len()));
+        self.record_outputs(control.machine());
         self.trace.ticks.push(tick);
         if ticked.status == Status::Failed {
             return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
@@ -133,6 +140,25 @@ impl Monitor {
             Stop { loop_closed: None, .. } => Ending::timeout(format!("the position was not reached within {time} s")),
             Stop { .. } => Ending::timeout(format!("the loop did not close within {time} s")),
         })
+    }
+
+    /// Records the plots and messages of the tick that is recorded next.
+    fn record_outputs(&mut self, machine: &Machine) {
+        let tick = self.trace.ticks.len();
+        for (plot, value) in machine.plotted() {
+            self.trace.plots[plot].values.push((tick, value));
+        }
+        let program = machine.program();
+        for LoggedMessage { message, numbers } in machine.logged() {
+            if self.trace.messages.len() == MESSAGES_KEPT {
+                self.trace.further_messages += 1;
+                continue;
+            }
+            let message = &program.outputs.messages[message];
+            let values = message.values(&numbers, &program.whiskers).map(|(name, value)| (Arc::clone(name), value));
+            let (state, text, values) = (message.state, Arc::clone(&message.text), values.collect());
+            self.trace.messages.push(MessageRecord { tick, state, text, values });
+        }
     }
 
     /// The finished run.

@@ -1,8 +1,11 @@
 //! Trace of a run, tick by tick.
 
+use std::fmt;
+use std::sync::Arc;
+
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::world::OutOfPlane;
-use vibrissa_runtime::machine::{Fallback, Mark};
+use vibrissa_runtime::machine::{Fallback, Mark, OutputKind, Shown};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 /// Trace of a run, tick by tick.
@@ -20,8 +23,52 @@ pub struct Trace {
     pub ticks: Vec<TickRecord>,
     /// The marks of the policy in the order of time. Within a tick they are in the order of whiskers.
     pub marks: Vec<MarkRecord>,
+    /// The plots of the policy, in its order.
+    pub plots: Vec<PlotRecord>,
+    /// The messages of the policy in their order, the first [`MESSAGES_KEPT`] of them.
+    pub messages: Vec<MessageRecord>,
+    /// Number of further messages.
+    pub further_messages: usize,
     /// True if the run ended after the last tick because the platform's body was driven into something.
     pub crashed: bool,
+}
+
+/// Number of messages that a trace keeps. It bounds the memory of a run that logs in every tick.
+pub const MESSAGES_KEPT: usize = 10_000;
+
+/// A plot of the policy over a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlotRecord {
+    /// Its name.
+    pub name: String,
+    /// The kind of its values.
+    pub kind: OutputKind,
+    /// The values (SI, a truth as 1 or 0, a choice as its index), each with the index of its tick.
+    pub values: Vec<(usize, f64)>,
+}
+
+/// A message of the policy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MessageRecord {
+    /// Index of the tick.
+    pub tick: usize,
+    /// Index of the state that contains the statement. `None` outside of states.
+    pub state: Option<usize>,
+    /// Its text.
+    pub text: Arc<str>,
+    /// The expressions that it shows, with their values.
+    pub values: Vec<(Arc<str>, Shown)>,
+}
+
+/// The text with its values, as in `the edge was lost: w = r0`.
+impl fmt::Display for MessageRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)?;
+        for (index, (name, value)) in self.values.iter().enumerate() {
+            write!(f, "{} {name} = {value}", if index == 0 { ":" } else { "," })?;
+        }
+        Ok(())
+    }
 }
 
 /// One mark.

@@ -2,7 +2,7 @@
 
 use super::trial::TrialResult;
 use crate::diagnostic::Diagnostic;
-use crate::policy::{PolicyTest, RunFigure};
+use crate::policy::{PlotFigure, PolicyTest, RunFigure};
 use crate::scene::{Metric, Outcome};
 use vibrissa_runtime::machine::Program;
 
@@ -51,6 +51,16 @@ fn figure(figure: RunFigure, program: &Program, result: &TrialResult) -> f64 {
                 active && !before
             });
             entered.count() as f64
+        }
+        RunFigure::Plot(figure, plot) => {
+            let values = run.trace.plots.get(plot).map_or(&[][..], |plot| &plot.values);
+            let mut values = values.iter().map(|&(_, value)| value);
+            let found = match figure {
+                PlotFigure::Least => values.reduce(f64::min),
+                PlotFigure::Greatest => values.reduce(f64::max),
+                PlotFigure::Last => values.next_back(),
+            };
+            found.unwrap_or(f64::NAN)
         }
         RunFigure::TimeIn(state) => {
             let ticks = run.trace.ticks.iter().filter(|tick| is_active(program, state, tick.state));

@@ -36,7 +36,8 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
         | RunFigure::CornerPlaceMax
         | RunFigure::CornerTimeMax
         | RunFigure::CornerPathMax
-        | RunFigure::InclinationBeyond => f64::NAN,
+        | RunFigure::InclinationBeyond
+        | RunFigure::Plot(..) => f64::NAN,
     };
     let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(&program, figure));
     let faults: Vec<Diagnostic> = faults.collect();

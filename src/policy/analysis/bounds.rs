@@ -192,7 +192,7 @@ impl<'m> Bounds<'m> {
                 region.is_partial = true;
                 self.put_vector(to, [Interval::ANYTHING; 2]);
             }
-            Op::LowPass { to, .. } | Op::Pid { to, .. } => {
+            Op::LowPass { to, .. } | Op::Pid { to, .. } | Op::Count { to, .. } => {
                 // The results depend on previous ticks.
                 region.is_partial = true;
                 self.put(to, Interval::ANYTHING);

@@ -102,7 +102,8 @@ impl<'a> Names<'a> {
                     self.give([name]);
                     self.expression(value);
                 }
-                Statement::Set { value, .. } => self.expression(value),
+                Statement::Set { value, .. } | Statement::Plot { value, .. } => self.expression(value),
+                Statement::Log { values, .. } => self.expressions(values),
                 Statement::If { branches, otherwise } => {
                     for (condition, block) in branches {
                         self.expression(condition);

@@ -44,6 +44,17 @@ pub(in crate::policy) enum Statement {
         values: Vec<Expression>,
         span: Span,
     },
+    /// `plot name = value`
+    Plot {
+        name: Name,
+        value: Expression,
+    },
+    /// `log "text", values`
+    Log {
+        text: Name,
+        values: Vec<Expression>,
+        span: Span,
+    },
     Hold(Span),
     Stop(Span),
 }

@@ -1,6 +1,6 @@
 //! Members of whiskers, contours, the body and a run.
 
-use crate::policy::test::RunFigure;
+use crate::policy::test::{PlotFigure, RunFigure};
 use crate::policy::types::Type;
 use vibrissa_runtime::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::units::Dimension;
@@ -39,6 +39,8 @@ pub(in crate::policy) enum MemberSource {
     Visits,
     /// Total time in a state, which is the argument.
     TimeIn,
+    /// A figure of a plot, which is the argument. Its type is that of the plot.
+    Plot(PlotFigure),
 }
 
 /// A value that a member returns for arguments.
@@ -254,7 +256,7 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 23] = [
+const RUN: [Member; 26] = [
     figure(
         "passed",
         Type::Truth,
@@ -358,6 +360,14 @@ const RUN: [Member; 23] = [
         "the number of entries of the given state: ticks that end in it or in an inner state, after a tick that did not",
     ),
     member("time_in", Type::TIME, MemberSource::TimeIn, "the total time in the given state or in an inner state"),
+    member(
+        "least",
+        Type::NUMBER,
+        MemberSource::Plot(PlotFigure::Least),
+        "the least value of the given plot, of its type. Unknown if it was never set",
+    ),
+    member("greatest", Type::NUMBER, MemberSource::Plot(PlotFigure::Greatest), "its greatest value"),
+    member("last", Type::NUMBER, MemberSource::Plot(PlotFigure::Last), "its last value"),
 ];
 
 /// The members of a type.

@@ -84,10 +84,15 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
             let usage = match (member.source, with_value) {
                 (MemberSource::At, Some(usage)) => usage,
                 (MemberSource::Visits | MemberSource::TimeIn, _) => format!("`{prefix}.{}(State)`", member.name),
+                (MemberSource::Plot(_), _) => format!("`{prefix}.{}(plot)`", member.name),
                 (_, Some(usage)) => format!("{plain}, {usage}"),
                 (_, None) => plain,
             };
-            row(&mut page, [&usage, &shown(member.r#type), member.meaning]);
+            let r#type = match member.source {
+                MemberSource::Plot(_) => "as the plot".to_owned(),
+                _ => shown(member.r#type),
+            };
+            row(&mut page, [&usage, &r#type, member.meaning]);
         }
     }
     page += "\n## Functions\n\n| function | arguments | result |\n|---|---|---|\n";

@@ -94,7 +94,8 @@ fn contextual_word(text: &str, tokens: &[Token<'_>]) -> Option<usize> {
         ("points", Some(last)) => {
             last.kind == Kind::Number && before.next().is_some_and(|of| of.kind == Kind::Keyword && of.text == "of")
         }
-        ("on" | "tell", Some(last)) if !last.is(".") && !last.is(":") => {
+        ("log", Some(last)) if !last.is(".") && !last.is(":") => text[word.len()..].trim_start().starts_with('"'),
+        ("on" | "tell" | "plot", Some(last)) if !last.is(".") && !last.is(":") => {
             let next = text[word.len()..].trim_start().split(|letter| !is_word(letter)).next().unwrap_or_default();
             next.starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && !is_keyword(next)
         }

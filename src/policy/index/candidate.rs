@@ -233,6 +233,7 @@ fn members(owner: Type) -> impl Iterator<Item = Candidate> {
         let values: Vec<&str> = match (member.source, member.at) {
             (MemberSource::At, Some(at)) => at.takes().iter().map(|&(value, ..)| value).collect(),
             (MemberSource::Visits | MemberSource::TimeIn, _) => vec!["State"],
+            (MemberSource::Plot(_), _) => vec!["plot"],
             _ => Vec::new(),
         };
         let fields = (1..).zip(values).map(|(number, value)| format!("${{{number}:{value}}}"));

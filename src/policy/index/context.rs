@@ -229,7 +229,7 @@ fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
         "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
         "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
-        | "exit" | "test" | "property" | "behaviour" | "monitor" => Expected::Nothing,
+        | "exit" | "test" | "property" | "behaviour" | "monitor" | "plot" | "log" => Expected::Nothing,
         "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,
         "tell" => Expected::Monitor,
@@ -315,7 +315,7 @@ fn more(statement: &[Token<'_>], level: Level) -> Expected {
         Some("if") if has("}") => &["else"],
         Some("set") if level == Level::Test => &[],
         _ if is_choice_open(statement) => &["then", "and", "or"],
-        Some("if" | "let" | "set" | "var" | "expect") => &["and", "or"],
+        Some("if" | "let" | "set" | "var" | "expect" | "plot") => &["and", "or"],
         Some("test") if !has("in") => return Expected::Only("in"),
         Some("property") if !has("over") => return Expected::Only("over"),
         Some("property") if is_range_begun(statement) => return Expected::Only("in"),

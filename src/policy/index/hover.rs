@@ -145,6 +145,7 @@ fn usages(owner: Type, member: &Member) -> Vec<String> {
     match member.source {
         MemberSource::At => with_value.into_iter().collect(),
         MemberSource::Visits | MemberSource::TimeIn => vec![format!("{plain}(State)")],
+        MemberSource::Plot(_) => vec![format!("{plain}(plot)")],
         _ => std::iter::once(plain).chain(with_value).collect(),
     }
 }

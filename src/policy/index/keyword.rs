@@ -89,7 +89,7 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 78] = [
+pub(super) const KEYWORDS: [Keyword; 80] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -269,6 +269,18 @@ pub(super) const KEYWORDS: [Keyword; 78] = [
         STATEMENT,
         "tell ${1:monitor}.${2:event}",
         "Executes the statements of an event of a monitor at once. Values in parentheses are those of its arguments.",
+    ),
+    entry(
+        "plot",
+        STATEMENT,
+        "plot ${1:name} = ${2:value}",
+        "Shows a value over time under a name: in the ticks, the picture and the tests of a run.",
+    ),
+    entry(
+        "log",
+        STATEMENT,
+        "log \"${1:message}\", ${2:value}",
+        "Logs a message with the values behind it, in every tick in which it is executed.",
     ),
     entry(
         "set",

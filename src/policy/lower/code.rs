@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use vibrissa_runtime::machine::{Block, CODE_LIMIT, Op, REGISTER_LIMIT, Register};
+use vibrissa_runtime::machine::{Block, CODE_LIMIT, Op, Outputs, REGISTER_LIMIT, Register};
 use vibrissa_runtime::units::Dimension;
 
 use crate::diagnostic::Span;
@@ -17,6 +17,10 @@ pub(super) struct Code {
     constants: BTreeMap<u64, Register>,
     /// The expressions whose values are in the registers.
     pub(super) origins: Origins,
+    /// The plots and messages.
+    pub(super) outputs: Outputs,
+    /// For every message, the spans of its values.
+    pub(super) logged: Vec<Vec<Span>>,
     /// True if the program exceeded its limits. No more code is emitted then.
     pub(super) full: bool,
 }
@@ -59,6 +63,9 @@ impl Origins {
 pub(super) struct Mark {
     ops: usize,
     registers: usize,
+    plots: usize,
+    messages: usize,
+    counter: Register,
 }
 
 impl Code {
@@ -68,13 +75,21 @@ impl Code {
             initial: Vec::new(),
             constants: BTreeMap::new(),
             origins: Origins::default(),
+            outputs: Outputs::default(),
+            logged: Vec::new(),
             full: false,
         }
     }
 
     /// The current position, for [`rewind`](Self::rewind).
     pub(super) fn mark(&self) -> Mark {
-        Mark { ops: self.ops.len(), registers: self.initial.len() }
+        Mark {
+            ops: self.ops.len(),
+            registers: self.initial.len(),
+            plots: self.outputs.plots.len(),
+            messages: self.outputs.messages.len(),
+            counter: self.outputs.counter,
+        }
     }
 
     /// Discards the code after `mark`.
@@ -83,6 +98,10 @@ impl Code {
         self.initial.truncate(mark.registers);
         self.constants.retain(|_, register| usize::from(*register) < mark.registers);
         self.origins.0.truncate(mark.registers);
+        self.outputs.plots.truncate(mark.plots);
+        self.outputs.messages.truncate(mark.messages);
+        self.outputs.counter = mark.counter;
+        self.logged.truncate(mark.messages);
     }
 
     /// The first of `width` new registers.

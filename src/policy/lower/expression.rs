@@ -271,6 +271,7 @@ impl<'f> Compiler<'f> {
             }
             (MemberSource::Visits, ..) => self.run_of_state(RunFigure::Visits, name, values)?,
             (MemberSource::TimeIn, ..) => self.run_of_state(RunFigure::TimeIn, name, values)?,
+            (MemberSource::Plot(figure), ..) => return self.figure_of_plot(figure, name, values),
             (_, _, Some(_)) => {
                 self.report_call(format!("`{}` takes no values", name.text), name.span);
                 return None;

@@ -16,6 +16,7 @@ mod memory;
 mod monitor;
 mod names;
 mod needs;
+mod output;
 mod parameter;
 mod property;
 mod scope;
@@ -58,6 +59,8 @@ pub(super) struct Lowered {
     pub(super) memory: Memory,
     /// The expressions whose values are in the registers.
     pub(super) origins: Origins,
+    /// For every message, the spans of its values.
+    pub(super) logged: Vec<Vec<Span>>,
     /// The contracts that the analysis has proved. Empty before it.
     pub(super) proved: Vec<ProvedContract>,
 }
@@ -102,9 +105,9 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
             let has_register = |value: &Value| !matches!(value.r#type, Type::Monitor(_));
             let known = |(name, meaning): (String, Meaning)| Some((name, meaning.filter(has_register)?));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
-            let (memory, origins) = (compiler.memory, compiler.code.origins);
+            let (memory, origins, logged) = (compiler.memory, compiler.code.origins, compiler.code.logged);
             let arguments = arguments.collect();
-            Ok(Lowered { program, tests, arguments, choices, memory, origins, proved: Vec::new() })
+            Ok(Lowered { program, tests, arguments, choices, memory, origins, logged, proved: Vec::new() })
         }
         _ => Err(diagnostics),
     }
@@ -188,6 +191,8 @@ struct Compiler<'f> {
     outer_use: Option<Span>,
     /// The register of the time at which the current state was entered. `None` outside of states.
     entered: Option<Register>,
+    /// Index of the state whose code is being generated. `None` outside of states.
+    current_state: Option<usize>,
     /// Number of contracts.
     contract_count: usize,
     /// Current depth in the syntax tree, and number of visited nodes.
@@ -223,6 +228,7 @@ impl<'f> Compiler<'f> {
             commandless: None,
             outer_use: None,
             entered: None,
+            current_state: None,
             contract_count: 0,
             depth: 0,
             work: 0,

@@ -242,7 +242,8 @@ impl<'f> Compiler<'f> {
         let given = self.arguments(scope, file, &event.name, &event.arguments, values, span)?;
         let (mut inner, ..) = self.inside(usize::from(value.register))?;
         for argument in &event.arguments {
-            inner.insert(&argument.name, given.get(&argument.name.text).flatten());
+            let value = given.get(&argument.name.text).flatten().map(|value| self.snapshot(scope, value));
+            inner.insert(&argument.name, value);
         }
         // The event sets the memory of its monitor, also where a law tells it. There is no recursion: a monitor knows only
         // those above it.

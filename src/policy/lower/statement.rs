@@ -41,6 +41,8 @@ impl<'f> Compiler<'f> {
             Statement::RecordPosition { position, contour } => self.record_position(scope, position, contour)?,
             Statement::Mark { name, whisker } => self.mark(scope, name, whisker)?,
             Statement::Tell { monitor, event, values, span } => self.tell(scope, [monitor, event], values, *span)?,
+            Statement::Plot { name, value } => self.plot(scope, name, value)?,
+            Statement::Log { text, values, span } => self.log(scope, text, values, *span)?,
             Statement::Steer(steer) => self.steer(scope, steer)?,
             Statement::Hold(span) => self.command(*span, Op::Hold)?,
             Statement::Stop(span) => self.command(*span, Op::Stop)?,
@@ -77,14 +79,16 @@ impl<'f> Compiler<'f> {
         Some(())
     }
 
-    /// A value that later assignments cannot change: a copy if it is memory, otherwise the value itself.
-    fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
-        let memory =
-            |name: &&Name| scope.get(&name.text).flatten().is_some_and(|memory| memory.register == value.register);
-        if matches!(value.r#type, Type::Monitor(_)) || !self.variables.iter().any(memory) {
-            return value;
-        }
-        self.copied(value)
+    /// A value that later statements cannot change: a copy if it is memory, otherwise the value itself.
+    pub(super) fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
+        let mut own = self.variables.iter().filter_map(|name| scope.get(&name.text).flatten());
+        if own.any(|memory| value.is_part_of(memory)) { self.copied(value) } else { self.untold(value) }
+    }
+
+    /// A value that no event can change: a copy if it is memory of a monitor, otherwise the value itself.
+    fn untold(&mut self, value: Value) -> Value {
+        let mut memories = self.running.iter().flat_map(|running| &running.memory).filter_map(|(_, memory)| *memory);
+        if memories.any(|memory| value.is_part_of(memory)) { self.copied(value) } else { value }
     }
 
     /// A copy of a value in its own registers.
@@ -188,6 +192,10 @@ impl<'f> Compiler<'f> {
             return None;
         };
         let mut inner = self.arguments(scope, file, &law.name, &law.arguments, values, span)?;
+        for argument in &law.arguments {
+            let value = inner.get(&argument.name.text).flatten().map(|value| self.untold(value));
+            inner.insert(&argument.name, value);
+        }
         self.inlining.push(&law.name);
         let used = self.outer_use;
         self.outer_use = used.or(Some(span));

@@ -105,6 +105,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
         always,
         contracts,
         fallback,
+        outputs: std::mem::take(&mut compiler.code.outputs),
         code: std::mem::take(&mut compiler.code.ops),
         initial_registers: std::mem::take(&mut compiler.code.initial),
         timers,
@@ -320,6 +321,7 @@ impl<'f> Compiler<'f> {
         let entered = self.code.allocate(1);
         self.entered = Some(entered);
         self.state_body = &state.body;
+        self.current_state = Some(index);
         let transitions = self.transitions(scope, Some(index), &state.transitions, timers);
         let fallback = self.failsafe(scope, Some(index), &state.failsafes);
         let contracts = self.contracts(scope, &state.contracts);
@@ -335,7 +337,7 @@ impl<'f> Compiler<'f> {
         self.statements(scope, &state.exit);
         let exit = self.code.since(start);
         let entry = self.entry(scope, state, entered);
-        (self.commandless, self.entered) = (None, None);
+        (self.commandless, self.entered, self.current_state) = (None, None, None);
         self.check_size(state.name.span);
         let name = Arc::from(self.hierarchy.path(index));
         machine::State { name, parent: state.parent, initial, entry, body, exit, transitions, contracts, fallback }

@@ -3,9 +3,9 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, File, Kind, Name, Setting, Test, TestScenes};
 use crate::policy::suggestion::did_you_mean;
-use crate::policy::test::{self, Expectation, FigureRegister, PolicyTest, RunFigure};
-use crate::policy::types::Type;
-use vibrissa_runtime::machine::{Op, Parameter, Register};
+use crate::policy::test::{self, Expectation, FigureRegister, PlotFigure, PolicyTest, RunFigure};
+use crate::policy::types::{Type, Value};
+use vibrissa_runtime::machine::{Op, OutputKind, Parameter, Register};
 
 use super::Compiler;
 use super::scope::Scope;
@@ -102,6 +102,46 @@ impl<'f> Compiler<'f> {
         register
     }
 
+    /// A figure of the plot that `values` names.
+    pub(super) fn figure_of_plot(
+        &mut self,
+        figure: PlotFigure,
+        name: &'f Name,
+        values: Option<&'f [Expression]>,
+    ) -> Option<Value> {
+        let plot = match values {
+            Some([Expression { kind: Kind::Root { name, values: None }, .. }]) => Some(name),
+            _ => None,
+        };
+        let Some(plot) = plot else {
+            let message = format!("`{}` needs the name of one plot", name.text);
+            let diagnostic = Diagnostic::error("P0304", message, name.span, "no plot is named");
+            self.report(
+                diagnostic.hint(format!("write `run.{}(name)` with the name of a `plot` statement", name.text)),
+            );
+            return None;
+        };
+        let plots = &self.code.outputs.plots;
+        let Some(index) = plots.iter().position(|known| known.name == plot.text) else {
+            let message = format!("there is no plot `{}`", plot.text);
+            let diagnostic = Diagnostic::error("P0201", message, plot.span, "unknown plot");
+            let diagnostic = did_you_mean(diagnostic, &plot.text, plots.iter().map(|known| known.name.as_str()));
+            self.report(diagnostic.hint("a statement of the policy gives it values: `plot name = value`"));
+            return None;
+        };
+        let r#type = match plots[index].kind {
+            OutputKind::Number(dimension) => Type::Scalar(dimension),
+            OutputKind::Truth => Type::Truth,
+            OutputKind::Choice(_) | OutputKind::Vector(_) | OutputKind::Whisker => {
+                let message = format!("the plot `{}` has neither numbers nor truths", plot.text);
+                let diagnostic = Diagnostic::error("P0301", message, plot.span, "has values of an enumeration");
+                self.report(diagnostic.hint("plot the comparison with a value: `plot is_left = side == Side.left`"));
+                return None;
+            }
+        };
+        Some(Value { r#type, register: self.figure(RunFigure::Plot(figure, index), name.span) })
+    }
+
     /// A register for a figure of the run and of the state that `values` names.
     pub(super) fn run_of_state(
         &mut self,
@@ -153,5 +193,6 @@ fn reads_a_tick(op: &Op) -> bool {
             | Op::ContourAt { .. }
             | Op::LowPass { .. }
             | Op::Pid { .. }
+            | Op::Count { .. }
     )
 }

@@ -8,7 +8,7 @@ use super::draft::Draft;
 /// of remaining reads of each register.
 pub(super) fn remove(draft: &mut Draft, operands: &[Operands]) -> Vec<u32> {
     let mut reads = vec![0_u32; draft.registers()];
-    for register in draft.read_by_guards() {
+    for register in draft.read_outside() {
         reads[usize::from(register)] += 1;
     }
     for place in operands.iter().flat_map(Operands::all_reads) {

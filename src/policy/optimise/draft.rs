@@ -26,8 +26,8 @@ impl Draft {
         self.program.initial_registers.len()
     }
 
-    /// Registers that transitions and contracts read.
-    pub(super) fn read_by_guards(&self) -> impl Iterator<Item = Register> {
+    /// Registers that transitions, contracts and outputs read.
+    pub(super) fn read_outside(&self) -> impl Iterator<Item = Register> {
         let contracts =
             self.program.contracts.iter().chain(self.program.states.iter().flat_map(|state| &state.contracts));
         let of_contracts = contracts.flat_map(|contract| {
@@ -44,6 +44,17 @@ impl Draft {
             })
             .chain(of_contracts)
             .flatten()
+            .chain(self.read_by_outputs())
+    }
+
+    fn read_by_outputs(&self) -> impl Iterator<Item = Register> {
+        let outputs = &self.program.outputs;
+        let of_plots = outputs.plots.iter().flat_map(|plot| [plot.value, plot.number]);
+        let of_messages = outputs.messages.iter().flat_map(|message| {
+            let of_values = message.values.iter().flat_map(|value| (value.value..).take(value.kind.width()));
+            of_values.chain([message.number])
+        });
+        of_plots.chain(of_messages)
     }
 
     /// For every operation, true if it is the target of a jump.

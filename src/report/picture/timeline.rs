@@ -10,8 +10,10 @@ use super::scale::{Scale, round_step};
 use crate::report::outline::Outline;
 use crate::report::shade::{Shade, shades};
 use crate::report::style::{self, Anchor, line, px, text, width_of};
-use crate::run::Trace;
+use crate::run::{PlotRecord, Trace};
 use crate::score::{ErrorFigures, Tip};
+use vibrissa_runtime::machine::OutputKind;
+use vibrissa_runtime::units::{Dimension, format_si, parse_unit};
 
 /// Height of a strip's heading (px).
 const HEADING: f64 = 24.0;
@@ -50,6 +52,9 @@ impl<'a> Timeline<'a> {
         timeline.states();
         timeline.errors(tips, error);
         timeline.deflections();
+        for plot in trace.plots.iter().filter(|plot| !plot.values.is_empty()) {
+            timeline.plot(plot);
+        }
         timeline.axis();
         (timeline.group, timeline.y)
     }
@@ -110,20 +115,53 @@ impl<'a> Timeline<'a> {
         let names: Vec<_> = names.collect();
         self.heading("Deflection (µrad)", &names, 3.0);
         let readings = |whisker: usize| trace.ticks.iter().map(move |tick| tick.deflections[whisker] * 1e6);
-        let all = (0..names.len()).flat_map(readings).filter(|value| value.is_finite());
-        let (low, high) = all.fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
-        let span = if high > low && (high - low).is_finite() { high - low } else { 1.0 };
-        let step = round_step(span / 4.0);
-        // A value beyond a tick by less than a visible distance does not extend the scale.
-        let values = ((low / step + 0.01).floor() * step, ((low + span) / step - 0.01).ceil() * step);
-        let ticks = Scale { values, positions: (0.0, 1.0) }.ticks(4.0);
-        let scale = self.strip(values, ticks);
+        let scale = self.strip_around((0..names.len()).flat_map(readings));
         for (whisker, (_, colour)) in names.iter().enumerate() {
             let mut curve = Outline::default();
             let times = trace.ticks.iter().map(|tick| self.time.at(tick.time));
             curve.polyline(times.zip(readings(whisker).map(|value| scale.at(value))));
             self.add(curve.stroked(colour, 1.2));
         }
+    }
+
+    /// A plot of the policy. It has gaps where the policy did not set it.
+    fn plot(&mut self, plot: &PlotRecord) {
+        let trace = self.trace;
+        let (unit, factor) = match &plot.kind {
+            OutputKind::Number(dimension) => {
+                let largest = plot.values.iter().map(|(_, value)| value.abs()).filter(|value| value.is_finite());
+                readable_unit(largest.fold(0.0, f64::max), *dimension)
+            }
+            OutputKind::Choice(names) => {
+                let numbered = names.iter().enumerate().map(|(index, name)| format!("{index} {name}"));
+                (numbered.collect::<Vec<_>>().join(", "), 1.0)
+            }
+            OutputKind::Truth => ("1 true".to_owned(), 1.0),
+            OutputKind::Vector(_) | OutputKind::Whisker => return,
+        };
+        let title = if unit.is_empty() { plot.name.clone() } else { format!("{} ({unit})", plot.name) };
+        self.heading(&title, &[], 0.0);
+        let scale = self.strip_around(plot.values.iter().map(|(_, value)| value * factor));
+        let mut curve = Outline::default();
+        for piece in plot.values.chunk_by(|(before, _), (after, _)| before + 1 == *after) {
+            let points = piece.iter().filter(|(_, value)| value.is_finite());
+            curve.polyline(
+                points.map(|&(tick, value)| (self.time.at(trace.ticks[tick].time), scale.at(value * factor))),
+            );
+        }
+        self.add(curve.stroked(style::WHISKERS[0], 1.2));
+    }
+
+    /// A strip whose scale contains zero and all finite numbers of `values`.
+    fn strip_around(&mut self, values: impl Iterator<Item = f64>) -> Scale {
+        let all = values.filter(|value| value.is_finite());
+        let (low, high) = all.fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
+        let span = if high > low && (high - low).is_finite() { high - low } else { 1.0 };
+        let step = round_step(span / 4.0);
+        // A value beyond a tick by less than a visible distance does not extend the scale.
+        let values = ((low / step + 0.01).floor() * step, ((low + span) / step - 0.01).ceil() * step);
+        let ticks = Scale { values, positions: (0.0, 1.0) }.ticks(4.0);
+        self.strip(values, ticks)
     }
 
     /// The frame and the grid of a strip for `values`, with `ticks`. Returns the scale of its values.
@@ -177,6 +215,13 @@ impl<'a> Timeline<'a> {
     fn add(&mut self, node: impl Into<Box<dyn svg::Node>>) {
         self.group = std::mem::take(&mut self.group).add(node);
     }
+}
+
+/// The unit in which [`format_si`] shows a number of this size, and the factor from SI units to it.
+fn readable_unit(size_si: f64, dimension: Dimension) -> (String, f64) {
+    let shown = format_si(size_si, dimension);
+    let unit = shown.split_once(' ').map_or("", |(_, unit)| unit);
+    (unit.to_owned(), parse_unit(unit).map_or(1.0, |unit| unit.from_si(1.0)))
 }
 
 /// The powers of ten (mm) around the errors of `tips`, and a tick at each.

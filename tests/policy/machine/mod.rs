@@ -6,4 +6,5 @@ mod contract;
 mod memory;
 mod monitor;
 mod nesting;
+mod output;
 mod tick;

@@ -7,6 +7,7 @@ use vibrissa_runtime::machine::{
 use vibrissa_runtime::math;
 
 use super::interpreter::Interpreter;
+use super::text::plot_name;
 use super::tree::{Arguments, Derived, Expression, Law, Monitor, Statement, Steer};
 
 #[derive(Debug, Clone, Copy)]
@@ -33,9 +34,24 @@ impl Value {
         if let Self::Vector(vector) = self { vector } else { panic!("{self:?} is no vector") }
     }
 
+    /// Its numbers as text, all bits of them.
+    fn numbers(self) -> String {
+        match self {
+            Self::Number(number) => numbers_text(&[number]),
+            Self::Truth(truth) => numbers_text(&[f64::from(u8::from(truth))]),
+            Self::Vector(vector) => numbers_text(&[vector.x, vector.y]),
+            Self::Whisker(index) | Self::Choice(index) => numbers_text(&[index as f64]),
+        }
+    }
+
     fn whisker(self) -> usize {
         if let Self::Whisker(whisker) = self { whisker } else { panic!("{self:?} is no whisker") }
     }
+}
+
+/// Numbers as text, all bits of them.
+pub(crate) fn numbers_text(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| format!("{number:?}")).collect::<Vec<_>>().join(" ")
 }
 
 /// Where something is evaluated.
@@ -334,6 +350,20 @@ impl Interpreter<'_> {
                 let position = self.value(position, place).vector();
                 self.senses.record_position(*contour, position);
                 self.seen("record in a contour", Some(place.part));
+            }
+            Statement::Plot(of, value) => {
+                let value = self.value(value, place);
+                self.plotted.insert(plot_name(*of), value.numbers());
+                self.seen("plot", Some(place.part));
+            }
+            Statement::Log(message, values) => {
+                let values = self.values(values, place);
+                let key = (place.stands_in, place.uses.iter().copied().chain([*message]).collect::<Vec<_>>());
+                // Within a tick, a statement shows only what it did last.
+                self.logged.retain(|(known, ..)| *known != key);
+                let shown = values.into_iter().map(Value::numbers).collect::<Vec<_>>().join(" ");
+                self.logged.push((key, format!("m{message}"), shown));
+                self.seen("log", Some(place.part));
             }
             Statement::Mark(mark, whisker) => {
                 let whisker = self.value(whisker, place).whisker();

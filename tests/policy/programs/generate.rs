@@ -93,7 +93,7 @@ impl Grower<'_> {
     fn grow_monitors(&mut self) {
         // What the machine can read of them. They know one another only by the values of their arguments.
         let mut readable: Vec<(String, Type)> = Vec::new();
-        for index in 0..self.pick(3) {
+        for index in 0..self.pick(4) {
             self.next_part();
             let outside = self.scope.len();
             let arguments = self.arguments(2);
@@ -122,12 +122,16 @@ impl Grower<'_> {
         }
     }
 
-    /// Statements that set the memory of a monitor, some of them under a condition.
+    /// Statements that set the memory of a monitor or show it, some of them under a condition.
     fn grow_memories(&mut self, memory: &[(String, Type, Expression)]) -> Vec<Statement> {
         let mut body = Vec::new();
         for _ in 0..self.pick(4) {
             let (name, r#type, _) = self.one_of(memory);
-            let set = Statement::Set(name, self.expression(r#type, 2));
+            let set = if r#type != Type::Contour && self.pick(6) == 0 {
+                Statement::Log(self.site(), vec![self.expression(r#type, 1)])
+            } else {
+                Statement::Set(name, self.expression(r#type, 2))
+            };
             let condition = (self.pick(2) == 1).then(|| self.expression(Type::Truth, 2));
             body.push(
                 condition.map_or(set.clone(), |condition| Statement::If(vec![(condition, vec![set])], Vec::new())),
@@ -319,7 +323,7 @@ impl Grower<'_> {
     fn statement(&mut self, may: May, depth: u8) -> Statement {
         let memory: Vec<_> = self.known().into_iter().filter(|known| known.is_memory).collect();
         let laws: Vec<Law> = self.program.laws.iter().filter(|law| may.command || !law.commands).cloned().collect();
-        match self.pick(21) {
+        match self.pick(24) {
             0 | 1 => {
                 let r#type = self.one_of(&Type::ALL);
                 let (name, value) = (self.fresh_name(), self.expression(r#type, 2));
@@ -360,6 +364,20 @@ impl Grower<'_> {
                 let monitor = self.pick(self.program.monitors.len());
                 let arguments = self.program.monitors[monitor].event.0.clone();
                 Statement::Tell(monitor, self.values(&arguments, 2), self.site())
+            }
+            21 => {
+                let of = self.one_of(&[Type::Number, Type::Length, Type::Angle, Type::Truth, Type::Choice]);
+                Statement::Plot(of, self.expression(of, 2))
+            }
+            22 => {
+                let types =
+                    [Type::Number, Type::Time, Type::Truth, Type::Vector, Type::Place, Type::Whisker, Type::Choice];
+                let values = (0..self.pick(4)).map(|_| {
+                    let of = self.one_of(&types);
+                    self.expression(of, 2)
+                });
+                let values = values.collect();
+                Statement::Log(self.site(), values)
             }
             _ => Statement::Record(self.expression(Type::Whisker, 1)),
         }

@@ -1,6 +1,6 @@
 //! Machines, interpreted as docs/language.md explains them.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use vibrissa_runtime::machine::{Action, ActionPart, Cause, Failure, NonFinite, Senses, Turn};
@@ -20,7 +20,14 @@ pub(crate) struct Done {
     pub(crate) failsafe: Option<(String, Cause)>,
     /// The violated contracts, in the order in which they are looked at: their states and texts.
     pub(crate) violated: Vec<(String, String)>,
+    /// The plots that were set, with their values.
+    pub(crate) plotted: BTreeMap<String, String>,
+    /// The messages in their order, with their values.
+    pub(crate) logged: Vec<(String, String)>,
 }
+
+/// A state, and the uses of laws and derived values in it that lead to a statement.
+pub(crate) type Use = (Option<usize>, Vec<usize>);
 
 /// How a machine ended its run.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +57,10 @@ pub(crate) struct Interpreter<'p> {
     end: Option<End>,
     /// The contracts that this tick has violated.
     violated: Vec<(String, String)>,
+    /// The plots that this tick has set.
+    pub(crate) plotted: BTreeMap<String, String>,
+    /// The messages of this tick: the state and the uses that lead to them, their texts and values.
+    pub(crate) logged: Vec<(Use, String, String)>,
     /// Of a contract, since when it has not been as it should.
     failing_since: HashMap<(Option<usize>, usize), f64>,
     /// What was executed, and as part of what.
@@ -74,6 +85,8 @@ impl<'p> Interpreter<'p> {
             last: HashMap::new(),
             end: None,
             violated: Vec::new(),
+            plotted: BTreeMap::new(),
+            logged: Vec::new(),
             failing_since: HashMap::new(),
             executed: BTreeSet::new(),
         }
@@ -87,6 +100,8 @@ impl<'p> Interpreter<'p> {
     pub(crate) fn tick(&mut self) -> Done {
         let mut failsafe = None;
         self.violated.clear();
+        self.plotted.clear();
+        self.logged.clear();
         let action = match &self.end {
             Some(_) => Action::Stop,
             None => self.try_tick(&mut failsafe).unwrap_or_else(|end| {
@@ -99,7 +114,15 @@ impl<'p> Interpreter<'p> {
             Some(End::Failure(_)) => "Failure".to_owned(),
             Some(End::Success(_)) => "Success".to_owned(),
         };
-        Done { action: Some(action), state, end: self.end.clone(), failsafe, violated: self.violated.clone() }
+        Done {
+            action: Some(action),
+            state,
+            end: self.end.clone(),
+            failsafe,
+            violated: self.violated.clone(),
+            plotted: self.plotted.clone(),
+            logged: self.logged.iter().map(|(_, text, values)| (text.clone(), values.clone())).collect(),
+        }
     }
 
     fn innermost(&self) -> usize {

@@ -9,8 +9,9 @@ use proptest::test_runner::TestRunner;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::Vector2;
 use vibrissa::policy::{compile, compile_with_warnings};
-use vibrissa_runtime::machine::{self, Action, Machine, Observer, ViolatedContract};
+use vibrissa_runtime::machine::{self, Action, LoggedMessage, Machine, Observer, ViolatedContract};
 
+use super::evaluate::numbers_text;
 use super::generate::programs;
 use super::interpreter::{Done, End, Interpreter, shown};
 use super::tree::Program;
@@ -104,6 +105,16 @@ fn done(machine: &mut Machine, script: &mut Script) -> Done {
             .into_iter()
             .map(|(state, text)| (state.map_or_else(String::new, name).replace("Whole", ""), text))
             .collect(),
+        plotted: (machine.plotted())
+            .map(|(plot, value)| (machine.program().outputs.plots[plot].name.clone(), numbers_text(&[value])))
+            .collect(),
+        logged: (machine.logged())
+            .map(|LoggedMessage { message, numbers }| {
+                let message = &machine.program().outputs.messages[message];
+                let width = message.values.iter().map(|value| value.kind.width()).sum();
+                (message.text.to_string(), numbers_text(&numbers[..width]))
+            })
+            .collect(),
     }
 }
 
@@ -191,7 +202,7 @@ proptest! {
 }
 
 /// What programs do, and as part of what.
-const DONE: [(&str, &[&str]); 53] = [
+const DONE: [(&str, &[&str]); 55] = [
     ("a parameter", &["a body", "a law", "a derived value", "an entry", "an exit", "a guard", "a target", "a memory"]),
     (
         "a unit with a factor",
@@ -236,6 +247,8 @@ const DONE: [(&str, &[&str]); 53] = [
     ("record", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("record in a contour", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
     ("mark", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
+    ("plot", &["a body", "a law", "an if", "an entry", "an exit", "the machine"]),
+    ("log", &["a body", "a law", "an if", "an entry", "an exit", "an event", "a monitor", "the machine"]),
     (
         "lowpass",
         &[

@@ -215,6 +215,11 @@ impl Statement {
             Self::Tell(monitor, values, _) => format!("tell {}", call(&format!("M{monitor}.e"), values)),
             Self::RecordPosition(position, contour) => format!("record {} in c{contour}", position.text()),
             Self::Record(whisker) => format!("record {}", whisker.text()),
+            Self::Plot(of, value) => format!("plot {} = {}", plot_name(*of), value.text()),
+            Self::Log(message, values) => {
+                let values: Vec<String> = values.iter().map(|value| format!(", {}", value.text())).collect();
+                format!("log \"m{message}\"{}", values.concat())
+            }
             Self::Mark(mark, whisker) => format!("mark {mark} {}", whisker.text()),
             Self::Steer(Steer { whisker, along, speed, facing, turn }) => {
                 let mover = whisker.as_ref().map_or_else(|| "body".to_owned(), Expression::text);
@@ -225,6 +230,11 @@ impl Statement {
             Self::Stop => "stop".to_owned(),
         }
     }
+}
+
+/// The name of the plot of values of a type.
+pub(crate) fn plot_name(of: Type) -> String {
+    format!("p{of:?}")
 }
 
 const OR: u8 = 1;

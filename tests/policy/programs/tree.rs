@@ -74,6 +74,10 @@ pub(crate) enum Statement {
     /// A position, and the number of the contour that gets it.
     RecordPosition(Expression, usize),
     Mark(&'static str, Expression),
+    /// The type of the value, which the plot's name has, and the value.
+    Plot(Type, Expression),
+    /// The number of this message, and its values.
+    Log(usize, Vec<Expression>),
     Steer(Steer),
     Hold,
     Stop,

@@ -8,13 +8,16 @@ use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Status, Tick};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
-use super::loop_record::{LoopRecord, RecordSender, StepInput, Violation};
+use super::loop_record::{LoopRecord, RecordSender, StepInput, TimedMessage, Violation};
 use super::report::TickReport;
 use super::violations::NewViolations;
 use crate::array::{Assembler, PoseHistory, Round, StampedPose, Zeroing, ZeroingFault, period_ns};
 use crate::config::Config;
 use crate::link::StampedCommand;
 use crate::vitals::Vitals;
+
+/// Maximum number of messages of the policy that are passed on for one tick.
+const MESSAGES_A_TICK: usize = 8;
 
 /// The receiving ends of the control task.
 #[derive(Debug)]
@@ -142,6 +145,10 @@ impl ControlTask {
             for contract in violations.contracts() {
                 let violation = Violation { time_ns: started_ns, contract };
                 self.outputs.records.send(&LoopRecord::Violation(violation));
+            }
+            for message in self.control.machine().logged().take(MESSAGES_A_TICK) {
+                let message = TimedMessage { time_ns: started_ns, message };
+                self.outputs.records.send(&LoopRecord::Message(message));
             }
             (command, status) = (next, tick.status);
             observe(&self.control, command, &tick);

@@ -1,7 +1,7 @@
 //! Records of the loop, for the log, telemetry and recordings.
 
 use rtrb::{Consumer, Producer};
-use vibrissa_runtime::machine::ContractId;
+use vibrissa_runtime::machine::{ContractId, LoggedMessage};
 
 use super::report::TickReport;
 use crate::array::{Round, StampedPose};
@@ -24,6 +24,8 @@ pub enum LoopRecord {
     Tick(TickReport),
     /// The machine begins to violate a contract of its policy.
     Violation(Violation),
+    /// The policy has logged a message.
+    Message(TimedMessage),
     /// A fault has changed.
     Event(FaultEvent),
     /// The supervisor has sent a packet.
@@ -37,6 +39,15 @@ pub struct Violation {
     pub time_ns: u64,
     /// The contract.
     pub contract: ContractId,
+}
+
+/// A message of the policy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimedMessage {
+    /// Start of the step (ns).
+    pub time_ns: u64,
+    /// The message with its values.
+    pub message: LoggedMessage,
 }
 
 /// The inputs of a step of the control task, except rounds and poses.

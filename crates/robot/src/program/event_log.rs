@@ -1,14 +1,14 @@
-//! The log of faults and of violated contracts on standard error.
+//! The log of faults, of violated contracts and of the policy's messages on standard error.
 
 use std::sync::Arc;
 
-use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::machine::{LoggedMessage, Program};
 
 use super::command_line::print_error;
-use crate::drive::{LoopRecord, RecordSink, Violation};
+use crate::drive::{LoopRecord, RecordSink, TimedMessage, Violation};
 use crate::fault::{FaultChange, FaultEvent};
 
-/// Prints every change of a fault, and every violation of a contract when it begins.
+/// Prints every change of a fault, every violation of a contract when it begins, and every message of the policy.
 #[derive(Debug)]
 pub(super) struct EventLog {
     program: Arc<Program>,
@@ -26,6 +26,7 @@ impl RecordSink for EventLog {
         match record {
             LoopRecord::Event(event) => print_error(&fault(event)),
             LoopRecord::Violation(begun) => print_error(&violation(&self.program, begun)),
+            LoopRecord::Message(logged) => print_error(&message(&self.program, logged)),
             _ => {}
         }
     }
@@ -47,6 +48,17 @@ fn violation(program: &Program, begun: &Violation) -> String {
         None => (String::new(), "an unknown contract"),
     };
     format!("{:.3} s: {state}the policy violates `{text}`", seconds(begun.time_ns))
+}
+
+fn message(program: &Program, logged: &TimedMessage) -> String {
+    let LoggedMessage { message, numbers } = &logged.message;
+    let time = seconds(logged.time_ns);
+    let Some(message) = program.outputs.messages.get(*message) else {
+        return format!("{time:.3} s: an unknown message");
+    };
+    let state = message.state.and_then(|state| program.states.get(state));
+    let state = state.map_or_else(String::new, |state| format!("state {}: ", state.name));
+    format!("{time:.3} s: {state}{}", message.line(numbers, &program.whiskers))
 }
 
 fn seconds(time_ns: u64) -> f64 {

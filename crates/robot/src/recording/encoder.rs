@@ -45,8 +45,8 @@ impl Encoder {
                 let message = TickMessage::new(report, &self.program);
                 self.message(Channel::Ticks, report.started_ns, &message)
             }
-            // A replay repeats the machine, and finds the same violations.
-            LoopRecord::Violation(_) => Ok(None),
+            // A replay repeats the machine, and finds the same violations and messages.
+            LoopRecord::Violation(_) | LoopRecord::Message(_) => Ok(None),
             LoopRecord::Event(event) => self.message(Channel::Events, event.time_ns, &EventMessage::from(event)),
             LoopRecord::Packet(packet) => self.message(Channel::Packets, packet.time_ns, &PacketMessage::from(packet)),
         }

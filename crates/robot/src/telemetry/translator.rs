@@ -96,7 +96,7 @@ impl Translator {
                     self.send_samples(round.ended_ns, send);
                 }
             }
-            LoopRecord::Pose(_) | LoopRecord::Violation(_) => {}
+            LoopRecord::Pose(_) | LoopRecord::Violation(_) | LoopRecord::Message(_) => {}
             LoopRecord::Step(step) => {
                 self.lost_records = step.lost;
                 self.zero();

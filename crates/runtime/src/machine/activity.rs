@@ -9,6 +9,7 @@ use super::evaluate::{compute, evaluate};
 use super::fallback::{Cause, Fallback};
 use super::observer::{ContractId, Duration, Observer, Standing, TransitionId, TriedGuard, ViolatedContract};
 use super::op::Block;
+use super::output::LoggedMessage;
 use super::program::{Guard, Program, Target, Transition, guards};
 use super::senses::Senses;
 use super::tick::{End, Failure, MICROSTEP_LIMIT};
@@ -34,6 +35,8 @@ pub(super) struct Activity {
     /// For every contract of the machine and of every state, what was observed.
     contracts: Vec<ContractStatus>,
     contracts_of_states: Vec<Vec<ContractStatus>>,
+    /// The count of plots and messages at the start of the newest tick.
+    count_before: f64,
 }
 
 impl Activity {
@@ -50,6 +53,7 @@ impl Activity {
             contracts_of_states: (program.states.iter())
                 .map(|state| vec![ContractStatus::default(); state.contracts.len()])
                 .collect(),
+            count_before: 0.0,
         }
     }
 
@@ -67,6 +71,7 @@ impl Activity {
         observer: &mut impl Observer,
     ) -> (Result<(), End>, Option<Fallback>) {
         let now = senses.time();
+        self.show_nothing(program);
         let is_first = !std::mem::replace(&mut self.has_begun, true);
         if is_first {
             self.compute(program, &program.start, senses);
@@ -237,6 +242,21 @@ impl Activity {
             let state = self.active.states()[level];
             self.check_contracts(program, Some(state), Moment::Tick, now, senses, observer);
         }
+    }
+
+    /// After this, no plot and no message belongs to the newest tick.
+    pub(super) fn show_nothing(&mut self, program: &Program) {
+        self.count_before = program.outputs.count(&self.registers);
+    }
+
+    /// The plots that the newest tick has set, by their index, with their values.
+    pub(super) fn plotted(&self, program: &Program) -> impl Iterator<Item = (usize, f64)> {
+        program.outputs.plotted(&self.registers, self.count_before)
+    }
+
+    /// The messages of the newest tick, in the order in which they were logged.
+    pub(super) fn logged(&self, program: &Program) -> impl Iterator<Item = LoggedMessage> {
+        program.outputs.logged(&self.registers, self.count_before)
     }
 
     /// The contracts of the machine and of all states, with what was observed.

@@ -111,6 +111,11 @@ pub(super) fn evaluate<S: Senses>(
                 let value = file.keep(memory, output);
                 file.put(to, value);
             }
+            Op::Count { to, counter } => {
+                let count = file.at(counter) + 1.0;
+                file.put(counter, count);
+                file.put(to, count);
+            }
             Op::Clear { memory, count } => (memory..memory + count).for_each(|register| file.put(register, 0.0)),
             Op::JumpUnless { a, target } => {
                 if !file.truth(a) {

@@ -17,6 +17,7 @@ mod needs;
 mod observer;
 mod op;
 mod operands;
+mod output;
 mod parameter;
 mod program;
 mod senses;
@@ -39,6 +40,9 @@ pub use fallback::{Cause, Fallback};
 pub use needs::{Needs, RateRange, UnmetRate};
 pub use observer::{ContractId, Duration, Observer, Standing, TransitionId, TriedGuard, ViolatedContract};
 pub use op::{Block, Op, Register, Wide};
+pub use output::{
+    LoggedMessage, MESSAGE_LIMIT, Message, MessageValue, NUMBERS_LIMIT, OutputKind, Outputs, PLOT_LIMIT, Plot, Shown,
+};
 pub use parameter::{DESCRIPTION_LIMIT, Parameter, ParameterValue, SetError};
 pub use program::{
     CODE_LIMIT, CONTOUR_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Program, REGISTER_LIMIT, State, Target, Transition,

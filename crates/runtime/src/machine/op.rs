@@ -122,6 +122,8 @@ pub enum Op {
     /// `to = output of a PID controller` for the error `a`. `gains` are four registers: p, i, d and the output limit.
     /// Its memory is four registers.
     Pid { to: Register, a: Register, gains: Register, memory: Register },
+    /// Adds one to `counter`, and `to = counter`.
+    Count { to: Register, counter: Register },
     /// Sets `count` registers of memory from `memory` on to zero.
     Clear { memory: Register, count: u16 },
     /// Continues at `target` unless `a`. `target` is ahead.

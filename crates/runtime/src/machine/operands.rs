@@ -102,6 +102,7 @@ impl Op {
             | Self::ContourAt { .. } => Effect::Sensing,
             Self::LowPass { .. }
             | Self::Pid { .. }
+            | Self::Count { .. }
             | Self::Clear { .. }
             | Self::JumpUnless { .. }
             | Self::JumpUnlessLess { .. }
@@ -295,6 +296,10 @@ impl Op {
                 visit(Read(1), a);
                 visit(Read(4), gains);
                 visit(Memory(4), memory);
+            }
+            Self::Count { to, counter } => {
+                visit(Write(1), to);
+                visit(Memory(1), counter);
             }
             Self::Clear { memory, count } => visit(Write(*count), memory),
             Self::JumpUnless { a, .. } => visit(Read(1), a),

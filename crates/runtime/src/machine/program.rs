@@ -12,6 +12,7 @@ use super::contract::{Contract, Moment};
 use super::needs::Needs;
 use super::observer::ContractId;
 use super::op::{Block, Op, Register};
+use super::output::Outputs;
 use super::parameter::{Parameter, ParameterValue, SetError};
 use super::tick::MICROSTEP_LIMIT;
 
@@ -66,6 +67,8 @@ pub struct Program {
     pub contracts: Vec<Contract>,
     /// Fallback transition for states without their own.
     pub fallback: Option<Target>,
+    /// What the policy plots and logs.
+    pub outputs: Outputs,
     /// All code. Blocks are ranges of it.
     pub code: Vec<Op>,
     /// Values of the registers at the start of a run.

@@ -7,6 +7,7 @@ use super::activity::Activity;
 use super::contract::ObservedContract;
 use super::fallback::Fallback;
 use super::observer::Observer;
+use super::output::LoggedMessage;
 use super::program::Program;
 use super::senses::Senses;
 
@@ -128,6 +129,16 @@ impl Machine {
         self.activity.contracts(&self.program)
     }
 
+    /// The plots that the newest tick has set, by their index in the program, with their values (SI).
+    pub fn plotted(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.activity.plotted(&self.program)
+    }
+
+    /// The messages that the newest tick has logged, in their order.
+    pub fn logged(&self) -> impl Iterator<Item = LoggedMessage> {
+        self.activity.logged(&self.program)
+    }
+
     /// The status after the newest tick.
     fn status(&self) -> Status {
         match self.end {
@@ -152,6 +163,7 @@ impl Machine {
     /// Executes one [`tick`](Self::tick). `observer` receives the guards that are tried and the transitions that are taken.
     pub fn tick_observed<S: Senses>(&mut self, senses: &mut S, observer: &mut impl Observer) -> Tick {
         if self.end.is_some() {
+            self.activity.show_nothing(&self.program);
             return Tick { action: Action::Stop, status: self.status(), fallback: None };
         }
         let mut tick = Tick { action: Action::Hold, status: Status::Running, fallback: None };

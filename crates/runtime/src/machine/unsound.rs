@@ -57,6 +57,9 @@ pub enum Unsound {
     /// A monitor does more than change memory.
     #[error("its monitors record, or give a command")]
     Monitor,
+    /// A plot or a message has an invalid name, text or kind.
+    #[error("its plot or message `{0}` has an invalid name, text or kind of value")]
+    Output(String),
     /// A contract does more than compute, or its text is not one short line.
     #[error("its contract `{0}` records or gives a command, or its text is not one short line")]
     Contract(String),

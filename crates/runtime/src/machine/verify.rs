@@ -8,6 +8,7 @@ use super::contour::Keypoints;
 use super::contract::{CONTRACT_LIMIT, Contract};
 use super::op::{Block, Op, Register};
 use super::operands::{Index, RegisterSpan};
+use super::output::{MESSAGE_LIMIT, PLOT_LIMIT};
 use super::parameter::DESCRIPTION_LIMIT;
 use super::program::{
     CODE_LIMIT, CONTOUR_LIMIT, Guard, NESTING_LIMIT, Program, REGISTER_LIMIT, State, Target, Transition,
@@ -50,6 +51,7 @@ impl Program {
             always,
             contracts,
             fallback: _,
+            outputs,
             code,
             initial_registers,
             timers: _,
@@ -66,6 +68,8 @@ impl Program {
             ("parameters", parameters.len(), initial_registers.len()),
             ("contact estimators", contact_estimators.len(), MAX_WHISKERS),
             ("contours", contours.len(), CONTOUR_LIMIT),
+            ("plots", outputs.plots.len(), PLOT_LIMIT),
+            ("messages", outputs.messages.len(), MESSAGE_LIMIT),
             ("whiskers that a rig may lack", optional.len(), MAX_WHISKERS),
         ] {
             if count > limit {
@@ -103,6 +107,7 @@ impl Program {
             return Err(Unsound::Monitor);
         }
         self.verify_contracts()?;
+        outputs.verify(initial_registers.len(), states.len())?;
         self.verify_operands()
     }
 
@@ -375,19 +380,19 @@ impl Program {
 }
 
 /// Checks that an index is less than a count.
-fn within(what: &'static str, index: usize, count: usize) -> Result<(), Unsound> {
+pub(super) fn within(what: &'static str, index: usize, count: usize) -> Result<(), Unsound> {
     if index < count { Ok(()) } else { Err(Unsound::Index { what, index, count }) }
 }
 
 /// Checks that a name consists of letters, digits and underscores and does not start with a digit.
-fn is_name(name: &str) -> Result<(), Unsound> {
+pub(super) fn is_name(name: &str) -> Result<(), Unsound> {
     let holds = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
         && name.bytes().next().is_some_and(|first| !first.is_ascii_digit());
     if holds { Ok(()) } else { Err(Unsound::Name(name.to_owned())) }
 }
 
 /// Checks that all names are different.
-fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Result<(), Unsound> {
+pub(super) fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Result<(), Unsound> {
     let mut known = HashSet::new();
     for name in names {
         if !known.insert(name) {

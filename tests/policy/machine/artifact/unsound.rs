@@ -1,9 +1,10 @@
 //! Programs that no policy compiles to, one for every promise that running relies on.
 
 use vibrissa_runtime::machine::{
-    Artifact, ArtifactError, Guard, Keypoints, Mark, Needs, Op, Program, RateRange, State, Target, Transition,
-    WhiskerScalar, WhiskerVector,
+    Artifact, ArtifactError, Guard, Keypoints, Mark, Message, MessageValue, Needs, Op, OutputKind, Outputs, Plot,
+    Program, RateRange, State, Target, Transition, WhiskerScalar, WhiskerVector,
 };
+use vibrissa_runtime::units::Dimension;
 
 use super::{erratic, policies};
 
@@ -113,6 +114,31 @@ fn monitors_only_change_memory() {
         });
         assert!(told.contains("its monitors record, or give a command"), "{told}");
     }
+}
+
+#[test]
+fn plots_and_messages_are_bounded_and_read_registers_that_exist() {
+    let plot = |value, kind| Plot { name: "p".to_owned(), kind, value, number: 0 };
+    let message = |text: &str, kinds: Vec<OutputKind>| {
+        let value = |kind| MessageValue { name: "n".into(), kind, value: 0 };
+        Message { state: None, text: text.into(), values: kinds.into_iter().map(value).collect(), number: 0 }
+    };
+    let number = || OutputKind::Number(Dimension::NUMBER);
+    let told = |change: &dyn Fn(&mut Outputs)| refusal(|program| change(&mut program.outputs));
+    let plots = |plots: Vec<Plot>| told(&|outputs| outputs.plots.clone_from(&plots));
+    let messages = |messages: Vec<Message>| told(&|outputs| outputs.messages.clone_from(&messages));
+    assert!(plots(vec![plot(u16::MAX, number())]).contains("names register 65535"));
+    assert!(plots(vec![plot(0, OutputKind::Whisker)]).contains("its plot or message `p`"));
+    assert!(plots(vec![plot(0, number()); 2]).contains("`p`"));
+    assert!(plots(vec![plot(0, number()); 33]).contains("33 plots"));
+    assert!(messages(vec![message("a\n", vec![])]).contains("its plot or message"));
+    assert!(messages(vec![message("a", vec![number(); 9])]).contains("its plot or message `a`"));
+    assert!(messages(vec![Message { state: Some(2), ..message("a", vec![]) }]).contains("names state 2 of 2"));
+    let vector = told(&|outputs| {
+        let last = MessageValue { name: "n".into(), kind: OutputKind::Vector(Dimension::LENGTH), value: u16::MAX };
+        outputs.messages = vec![Message { values: vec![last], ..message("a", vec![]) }];
+    });
+    assert!(vector.contains("names register 65536"), "{vector}");
 }
 
 #[test]
