@@ -62,6 +62,17 @@ pub(super) enum FileKind {
     Tests,
 }
 
+impl FileKind {
+    /// The kind in messages.
+    pub(super) fn phrase(self) -> &'static str {
+        match self {
+            Self::Machine => "a machine",
+            Self::Library => "a library",
+            Self::Tests => "a test file",
+        }
+    }
+}
+
 impl File {
     pub(super) fn is_library(&self) -> bool {
         self.kind == FileKind::Library

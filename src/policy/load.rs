@@ -163,9 +163,9 @@ impl Loaded {
         for (number, (uses, links)) in uses.iter().zip(&self.links).enumerate() {
             let mut pairs = uses.iter().zip(links).filter_map(|(used, link)| Some((used, (*link)?)));
             if self.files.get(number).into_iter().flatten().any(|file| file.kind == FileKind::Tests) {
-                misfits.extend(pairs.next().and_then(|(used, link)| self.not_tested(used, link)));
+                misfits.extend(pairs.next().and_then(|(used, link)| self.unfit(used, link, FileKind::Machine)));
             }
-            misfits.extend(pairs.filter_map(|(used, link)| self.not_used(used, link)));
+            misfits.extend(pairs.filter_map(|(used, link)| self.unfit(used, link, FileKind::Library)));
         }
         misfits.extend(self.cycle(&uses));
         misfits.extend(self.files.iter().flatten().filter_map(misplaced));
@@ -192,30 +192,23 @@ impl Loaded {
         (self.source, files, self.recovery)
     }
 
-    /// The diagnostic for a `use` of a file that is no library. The first file has its own diagnostic, that of a cycle.
-    fn not_used(&self, used: &Use, index: usize) -> Option<Diagnostic> {
+    /// The diagnostic for a file of a kind that the text at `used` cannot name. `needed` is the kind that it can.
+    fn unfit(&self, used: &Use, index: usize, needed: FileKind) -> Option<Diagnostic> {
         let file = self.files.get(index).filter(|_| index > 0)?.as_ref()?;
-        let kind = match file.kind {
-            FileKind::Library => return None,
-            FileKind::Machine => "a machine",
-            FileKind::Tests => "a test file",
+        if file.kind == needed {
+            return None;
+        }
+        let (cannot, hint) = match needed {
+            FileKind::Machine => {
+                ("tested", "name a file that begins with `machine`; a behaviour is tested in a machine that uses it")
+            }
+            FileKind::Library | FileKind::Tests => {
+                ("used", "move the shared laws into a file that begins with `library` and a name")
+            }
         };
-        let message = format!("`{}` is {kind}, not a library", self.source.part_name(index));
-        let fault = Diagnostic::error("P0603", message, used.span, "cannot be used").note(file.name.span, kind);
-        Some(fault.hint("move the shared laws into a file that begins with `library` and a name"))
-    }
-
-    /// The diagnostic for a test file whose first line does not name a machine.
-    fn not_tested(&self, used: &Use, index: usize) -> Option<Diagnostic> {
-        let file = self.files.get(index).filter(|_| index > 0)?.as_ref()?;
-        let kind = match file.kind {
-            FileKind::Machine => return None,
-            FileKind::Library => "a library",
-            FileKind::Tests => "a test file",
-        };
-        let message = format!("`{}` is {kind}, not a machine", self.source.part_name(index));
-        let fault = Diagnostic::error("P0603", message, used.span, "cannot be tested").note(file.name.span, kind);
-        Some(fault.hint("name a file that begins with `machine`; a behaviour is tested in a machine that uses it"))
+        let message = format!("`{}` is {}, not {}", self.source.part_name(index), file.kind.phrase(), needed.phrase());
+        let fault = Diagnostic::error("P0603", message, used.span, format!("cannot be {cannot}"));
+        Some(fault.note(file.name.span, file.kind.phrase()).hint(hint))
     }
 
     /// Gives the machine of a test file the place of that file, and its tests.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::nightly;
+use crate::pieces;
 use crate::results::Selection;
 use crate::setup::Options;
 
@@ -31,6 +32,9 @@ Commands:
   nightly run the families of docs/results/families.md again and print the verdicts that changed; calibrate drawn arrays
             --count N      only the first N scenes of each family
             --program FILE use this program instead of building it
+  pieces  remove each part of vibrissa.fsm in turn and write what it is worth into docs/results/pieces.md; goes on where it was stopped
+            --count N      run N scenes of each family (12)
+            --program FILE use this program instead of building it
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
@@ -54,6 +58,7 @@ pub(crate) enum Command {
     },
     Results(Selection),
     Nightly(nightly::Options),
+    Pieces(pieces::Options),
     Pi,
     Fuzz(u64),
 }
@@ -98,6 +103,7 @@ impl Command {
             }
             "results" => return parse_results(arguments),
             "nightly" => return parse_nightly(arguments),
+            "pieces" => return parse_pieces(arguments),
             "pi" => Self::Pi,
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
@@ -146,9 +152,7 @@ fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Comman
     let mut selection = Selection::default();
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
-            Some("--program") => {
-                selection.program = Some(arguments.next().map(PathBuf::from).ok_or(ArgumentError::NoProgram)?);
-            }
+            Some("--program") => selection.program = Some(program(&mut arguments)?),
             Some("--help" | "-h") => return Ok(Command::Help),
             Some(name) if !name.starts_with('-') => selection.names.push(name.to_owned()),
             _ => return Err(unexpected("results", &argument)),
@@ -161,18 +165,37 @@ fn parse_nightly(mut arguments: impl Iterator<Item = OsString>) -> Result<Comman
     let mut options = nightly::Options::default();
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
-            Some("--count") => {
-                let count = arguments.next().and_then(|count| count.to_str()?.parse().ok()).filter(|&count| count > 0);
-                options.count = Some(count.ok_or(ArgumentError::NoScenes)?);
-            }
-            Some("--program") => {
-                options.program = Some(arguments.next().map(PathBuf::from).ok_or(ArgumentError::NoProgram)?);
-            }
+            Some("--count") => options.count = Some(scenes(&mut arguments)?),
+            Some("--program") => options.program = Some(program(&mut arguments)?),
             Some("--help" | "-h") => return Ok(Command::Help),
             _ => return Err(unexpected("nightly", &argument)),
         }
     }
     Ok(Command::Nightly(options))
+}
+
+fn parse_pieces(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
+    let mut options = pieces::Options::default();
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--count") => options.count = scenes(&mut arguments)?,
+            Some("--program") => options.program = Some(program(&mut arguments)?),
+            Some("--help" | "-h") => return Ok(Command::Help),
+            _ => return Err(unexpected("pieces", &argument)),
+        }
+    }
+    Ok(Command::Pieces(options))
+}
+
+/// The number behind `--count`.
+fn scenes(arguments: &mut impl Iterator<Item = OsString>) -> Result<u64, ArgumentError> {
+    let count = arguments.next().and_then(|count| count.to_str()?.parse().ok()).filter(|&count| count > 0);
+    count.ok_or(ArgumentError::NoScenes)
+}
+
+/// The file behind `--program`.
+fn program(arguments: &mut impl Iterator<Item = OsString>) -> Result<PathBuf, ArgumentError> {
+    arguments.next().map(PathBuf::from).ok_or(ArgumentError::NoProgram)
 }
 
 fn unexpected(command: &str, argument: &OsString) -> ArgumentError {

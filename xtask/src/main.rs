@@ -18,6 +18,7 @@ mod json;
 mod links;
 mod nightly;
 mod pi;
+mod pieces;
 mod platform;
 mod prose;
 mod results;
@@ -62,6 +63,7 @@ fn main() -> ExitCode {
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Results(selection) => status(results::write(&root, &selection)),
         Command::Nightly(options) => status(nightly::nightly(&root, &options)),
+        Command::Pieces(options) => status(pieces::write(&root, &options)),
         Command::Pi => status(pi::pack(&root)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
