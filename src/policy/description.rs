@@ -17,6 +17,11 @@ use vibrissa_runtime::machine::{Contract, DESCRIPTION_LIMIT};
 ///
 /// The result is one line without control characters, of at most [`DESCRIPTION_LIMIT`] bytes.
 pub(super) fn description(source: &Source, name: Span) -> Option<String> {
+    whole_description(source, name).map(bounded)
+}
+
+/// The [`description`] of any length.
+pub(super) fn whole_description(source: &Source, name: Span) -> Option<String> {
     let part = source.part_span(source.part_at(name.start));
     let behind = source.slice(Span::new(name.start, part.end));
     let line = &behind[..behind.find('\n').unwrap_or(behind.len())];
@@ -24,7 +29,7 @@ pub(super) fn description(source: &Source, name: Span) -> Option<String> {
         Some(comment) => comment_text(comment),
         None => comment_above(source.slice(Span::new(part.start, name.start))),
     };
-    (!text.is_empty()).then(|| bounded(text))
+    (!text.is_empty()).then_some(text)
 }
 
 /// The comment lines above an item. `before` is the text before its name.

@@ -4,7 +4,7 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 16] = [
+pub(super) const MODULES: [(&str, &str); 17] = [
     ("convexity", include_str!("../../policies/std/convexity.fsm")),
     ("corridor", include_str!("../../policies/std/corridor.fsm")),
     ("explore", include_str!("../../policies/std/explore.fsm")),
@@ -13,6 +13,7 @@ pub(super) const MODULES: [(&str, &str); 16] = [
     ("following", include_str!("../../policies/std/following.fsm")),
     ("guards", include_str!("../../policies/std/guards.fsm")),
     ("mounting", include_str!("../../policies/std/mounting.fsm")),
+    ("object", include_str!("../../policies/std/object.fsm")),
     ("obstacle", include_str!("../../policies/std/obstacle.fsm")),
     ("platform", include_str!("../../policies/std/platform.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
@@ -28,10 +29,10 @@ pub(super) fn text(module: &str) -> Option<&'static str> {
     MODULES.iter().find(|(name, _)| *name == module).map(|&(_, text)| text)
 }
 
-/// The module that contains a law, derived value, behaviour or monitor of this name.
+/// The module that contains a law, derived value, behaviour, monitor or type of this name.
 pub(super) fn module_with(name: &str) -> Option<&'static str> {
     let gives = |line: &str| {
-        let rest = ["law ", "let ", "behaviour ", "monitor "].iter().find_map(|word| line.strip_prefix(word));
+        let rest = ["law ", "let ", "behaviour ", "monitor ", "type "].iter().find_map(|word| line.strip_prefix(word));
         rest.and_then(|rest| rest.strip_prefix(name)).is_some_and(|rest| rest.starts_with(['(', ' ']))
     };
     MODULES.iter().find(|(_, text)| text.lines().any(gives)).map(|&(module, _)| module)

@@ -33,7 +33,8 @@ pub struct RunResult {
     pub mismatch: Option<MismatchIdentity>,
     /// Outcome of the run.
     pub outcome: Outcome,
-    /// Reason of the outcome. `None` for a completed run.
+    /// Reason of the outcome, such as the text of the policy's `Success` or `Failure`. `None` if a stop condition completed
+    /// the run.
     pub reason: Option<String>,
     /// Name of the last state.
     pub final_state: String,

@@ -37,7 +37,7 @@ pub struct Monitor {
 pub struct Ending {
     /// The outcome.
     pub outcome: Outcome,
-    /// Its reason. `None` for a completed run.
+    /// Its reason. `None` if a stop condition completed the run.
     pub reason: Option<String>,
 }
 
@@ -115,7 +115,7 @@ impl Monitor {
             return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
         }
         if ticked.status == Status::Succeeded {
-            return Some(Ending::COMPLETED);
+            return Some(Ending { reason: control.machine().success().map(str::to_owned), ..Ending::COMPLETED });
         }
         if let Some(aim) = &self.stop.loop_closed {
             for (watch, tip) in self.loops.iter_mut().zip(tick.tips) {

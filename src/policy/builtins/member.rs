@@ -144,7 +144,7 @@ const WHISKER: [Member; 14] = [
             "loop_closed",
             Type::Truth,
             MemberSource::At,
-            "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around",
+            "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around. A whisker can close one loop in a run: behind a gap, the same loop goes on. `trace_object` in `std.object` traces several objects",
         )
     },
     member(

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::catalogue::{self, Parameter};
 use crate::diagnostic::Source;
 use crate::policy::ast::{Argument, Behaviour, Name};
-use crate::policy::description::description;
+use crate::policy::description::{description, whole_description};
 use crate::policy::parse::parse;
 use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
@@ -146,6 +146,12 @@ fn standard(page: &mut String) {
         let items = laws.chain(values).chain(behaviours).chain(monitors);
         let mut items: Vec<(&str, &Name, &Vec<Argument>)> = items.collect();
         items.sort_by_key(|(_, name, _)| name.span.start);
+        for item in &file.enumerations {
+            let values = item.values.iter().map(|value| value.text.as_str()).collect::<Vec<_>>().join(" or ");
+            let said = whole_description(&source, item.name.span)
+                .unwrap_or_else(|| panic!("{} has no description", item.name.text));
+            row(page, [&format!("`type {} = {values}`", item.name.text), &said]);
+        }
         for (kind, name, arguments) in items {
             let arguments = arguments.iter().map(|one| {
                 let end = one.default.as_ref().map_or(one.type_name.span(), |default| default.span);
@@ -153,7 +159,8 @@ fn standard(page: &mut String) {
             });
             let arguments = arguments.collect::<Vec<_>>().join(", ");
             let arguments = if arguments.is_empty() && kind == "let" { arguments } else { format!("({arguments})") };
-            let said = description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));
+            let said =
+                whole_description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));
             row(page, [&format!("`{kind} {}{arguments}`", name.text), &said]);
         }
         file.behaviours.iter().for_each(|item| behaviour(page, (module, &source), item));

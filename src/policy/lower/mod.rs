@@ -41,7 +41,7 @@ use code::Code;
 use hierarchy::Hierarchy;
 use monitor::Running;
 use names::Names;
-use scope::{Meaning, Scope};
+use scope::{Meaning, Scope, in_the_standard_library};
 
 pub(super) use code::{Origin, Origins};
 pub(super) use scope::is_reserved;
@@ -321,7 +321,7 @@ fn unknown_type(name: &TypeName, own: &[&str]) -> Diagnostic {
             let message = format!("there is no type `{}`", name.base.text);
             let diagnostic = Diagnostic::error("P0204", message, name.base.span, "unknown type");
             let known = dimensions.chain(["whisker", "contour", "truth", "vector"]).chain(own.iter().copied());
-            did_you_mean(diagnostic, &name.base.text, known)
+            in_the_standard_library(did_you_mean(diagnostic, &name.base.text, known), &name.base.text)
                 .hint(format!("types are whisker, contour, truth, {list}, vector, and `vector of` a dimension"))
         }
         _ => match std::iter::once(first)

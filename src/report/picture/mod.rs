@@ -111,7 +111,7 @@ fn heading(scene: &Scene, policy: &str, run: &Run) -> (Vec<Text>, f64) {
     let mut y = 64.0;
     for line in run.reason.iter().flat_map(|reason| wrapped(reason)) {
         y += 20.0;
-        lines.push(text(left, y, Anchor::Start, 14.0, style::ALARM, &line));
+        lines.push(text(left, y, Anchor::Start, 14.0, colour, &line));
     }
     (lines, y + 40.0)
 }

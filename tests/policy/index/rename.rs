@@ -33,6 +33,10 @@ fn nameless(mut program: Program) -> String {
     for contract in contracts {
         contract.text = "".into();
     }
+    program.outputs.plots.iter_mut().for_each(|plot| plot.name.clear());
+    for value in program.outputs.messages.iter_mut().flat_map(|message| &mut message.values) {
+        value.name = "".into();
+    }
     format!("{program:?}")
 }
 

@@ -17,7 +17,7 @@ use vibrissa_runtime::machine::{Cause, Program};
 use vibrissa_runtime::signal::{Command, Sample};
 
 /// Every shipped policy.
-const POLICIES: [&str; 8] = ["array", "bang", "baseline", "quick", "reverse", "thesis", "tilted", "vibrissa"];
+const POLICIES: [&str; 9] = ["array", "bang", "baseline", "quick", "reverse", "thesis", "tilted", "two", "vibrissa"];
 
 fn text(path: &str) -> Result<String, String> {
     std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).map_err(|cause| cause.to_string())
