@@ -207,7 +207,7 @@ fn show_messages(trial: &Trial, run: &Run) {
         let time = trace.ticks.get(message.tick).map_or(0.0, |tick| tick.time);
         let state = message.state.and_then(|state| trace.states.get(state));
         let state = state.map_or_else(String::new, |state| format!("{state}: "));
-        output::message(format_args!("{name}: {time:.2} s, {state}{message}"));
+        output::message(format_args!("{name}: {time:.2} s, {state}{}", message.message));
     }
     let further = trace.messages.len().saturating_sub(MESSAGES_PRINTED) + trace.further_messages;
     if further > 0 {

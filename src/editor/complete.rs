@@ -40,8 +40,8 @@ fn kind(kind: CandidateKind) -> CompletionItemKind {
     match kind {
         CandidateKind::Keyword => CompletionItemKind::Keyword,
         CandidateKind::Function => CompletionItemKind::Function,
-        CandidateKind::Member => CompletionItemKind::Field,
-        CandidateKind::Type => CompletionItemKind::Struct,
+        CandidateKind::Member | CandidateKind::Symbol(SymbolKind::Field) => CompletionItemKind::Field,
+        CandidateKind::Type | CandidateKind::Symbol(SymbolKind::Compound) => CompletionItemKind::Struct,
         CandidateKind::Module | CandidateKind::Family | CandidateKind::Symbol(SymbolKind::Behaviour) => {
             CompletionItemKind::Module
         }

@@ -84,10 +84,11 @@ fn outline(document: &Document) -> Vec<DocumentSymbol> {
 /// The nearest kind of the protocol. `None` for names that are not in an outline.
 fn outline_kind(kind: SymbolKind) -> Option<LspSymbolKind> {
     Some(match kind {
-        SymbolKind::Whisker | SymbolKind::Contour => LspSymbolKind::Field,
+        SymbolKind::Whisker | SymbolKind::Contour | SymbolKind::Field => LspSymbolKind::Field,
         SymbolKind::Parameter => LspSymbolKind::Constant,
         SymbolKind::Enumeration => LspSymbolKind::Enum,
         SymbolKind::Choice => LspSymbolKind::EnumMember,
+        SymbolKind::Compound => LspSymbolKind::Struct,
         SymbolKind::Derived => LspSymbolKind::Variable,
         SymbolKind::Law => LspSymbolKind::Function,
         SymbolKind::State => LspSymbolKind::Class,

@@ -32,6 +32,7 @@ pub(super) struct File {
     pub(super) keypoints: Vec<Keypoints>,
     pub(super) contours: Vec<Contour>,
     pub(super) enumerations: Vec<Enumeration>,
+    pub(super) compounds: Vec<Compound>,
     pub(super) parameters: Vec<Parameter>,
     pub(super) initial: Vec<Name>,
     pub(super) derived: Vec<Derived>,
@@ -78,13 +79,15 @@ impl File {
         self.kind == FileKind::Library
     }
 
-    /// The names that another file can use: derived values, laws, behaviours, monitors and enumerations.
+    /// The names that another file can use: derived values, laws, behaviours, monitors and types.
     pub(super) fn exports(&self) -> impl Iterator<Item = &Name> {
         let derived = self.derived.iter().map(|item| &item.name);
         let laws = self.laws.iter().map(|item| &item.name);
         let enumerations = self.enumerations.iter().map(|item| &item.name);
         let monitors = self.monitors.iter().filter(|item| item.used.is_none()).map(|item| &item.name);
-        derived.chain(laws).chain(self.behaviours.iter().map(|item| &item.name)).chain(monitors).chain(enumerations)
+        let compounds = self.compounds.iter().map(|item| &item.name);
+        let behaviours = self.behaviours.iter().map(|item| &item.name);
+        derived.chain(laws).chain(behaviours).chain(monitors).chain(enumerations).chain(compounds)
     }
 }
 
@@ -143,6 +146,36 @@ pub(super) struct Keypoints {
 pub(super) struct Enumeration {
     pub(super) name: Name,
     pub(super) values: Vec<Name>,
+}
+
+/// A type with several values.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Compound {
+    pub(super) name: Name,
+    pub(super) content: Content,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Content {
+    /// `type name(field: type)`
+    Record(Vec<Argument>),
+    /// `type name = list of most element`
+    List {
+        /// The maximum number of elements, as in the text.
+        most: Name,
+        element: TypeName,
+    },
+}
+
+impl Compound {
+    /// The names of the types of its parts.
+    pub(super) fn types(&self) -> impl Iterator<Item = &TypeName> {
+        let (fields, element) = match &self.content {
+            Content::Record(fields) => (fields.as_slice(), None),
+            Content::List { element, .. } => ([].as_slice(), Some(element)),
+        };
+        fields.iter().map(|field| &field.type_name).chain(element)
+    }
 }
 
 /// `param name = value in low .. high`

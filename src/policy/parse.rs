@@ -14,8 +14,8 @@ use std::borrow::Cow;
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{
-    Argument, Bound, Contour, Derived, Enumeration, File, FileKind, From, Guard, Keypoints, Law, Name, Need, Parameter,
-    Quantity, Setting, Statement, Steer, Transition, Turn, TypeName, Use,
+    Argument, Bound, Compound, Content, Contour, Derived, Enumeration, File, FileKind, From, Guard, Keypoints, Law,
+    Name, Need, Parameter, Quantity, Setting, Statement, Steer, Transition, Turn, TypeName, Use,
 };
 use super::grammar::{self, Rule};
 use super::parse_tree::{Pair, Pairs};
@@ -42,6 +42,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
         keypoints: Vec::new(),
         contours: Vec::new(),
         enumerations: Vec::new(),
+        compounds: Vec::new(),
         parameters: Vec::new(),
         initial: Vec::new(),
         derived: Vec::new(),
@@ -98,6 +99,7 @@ pub(super) fn parse(source: &Source, start: usize) -> Parsed<File> {
             }
             Rule::parameter => file.parameters.push(parameter(&mut reader)?),
             Rule::enumeration => file.enumerations.push(enumeration(&mut reader)?),
+            Rule::record_type | Rule::list_type => file.compounds.push(compound(&mut reader, rule)?),
             Rule::initial => file.initial.push(reader.name()?),
             Rule::derived => file.derived.push(Derived {
                 name: reader.name()?,
@@ -181,6 +183,23 @@ fn enumeration(reader: &mut Reader<'_>) -> Parsed<Enumeration> {
     Ok(Enumeration { name, values })
 }
 
+/// A record or a list.
+fn compound(reader: &mut Reader<'_>, rule: Rule) -> Parsed<Compound> {
+    let name = reader.name()?;
+    if rule == Rule::list_type {
+        let most = named(reader.take(Rule::number)?);
+        return Ok(Compound {
+            name,
+            content: Content::List { most, element: type_name(reader.take(Rule::type_name)?)? },
+        });
+    }
+    let mut fields = Vec::new();
+    while reader.has(Rule::argument) {
+        fields.push(argument(reader.next()?)?);
+    }
+    Ok(Compound { name, content: Content::Record(fields) })
+}
+
 fn keypoints(pair: Pair<'_>) -> Parsed<Keypoints> {
     let span = pair.span();
     let mut reader = Reader::new(pair);
@@ -212,20 +231,29 @@ fn arguments(reader: &mut Reader<'_>) -> Parsed<Vec<Argument>> {
     let mut list = Reader::new(reader.take(Rule::arguments)?);
     let mut arguments = Vec::new();
     while list.has(Rule::argument) {
-        let mut argument = Reader::new(list.take(Rule::argument)?);
-        let name = argument.name()?;
-        let mut type_name = Reader::new(argument.take(Rule::type_name)?);
-        let base = named(type_name.next()?);
-        let of = if type_name.has(Rule::name) { Some(type_name.name()?) } else { None };
-        let mut factors = Vec::new();
-        while let Some((operator, _)) = type_name.peek().map(Pair::as_str).and_then(binary) {
-            type_name.next()?;
-            factors.push((operator, type_name.name()?));
-        }
-        let default = if argument.has(Rule::expression) { Some(argument.expression()?) } else { None };
-        arguments.push(Argument { name, type_name: TypeName { base, of, factors }, default });
+        arguments.push(argument(list.next()?)?);
     }
     Ok(arguments)
+}
+
+/// An argument, or a field of a record.
+fn argument(pair: Pair<'_>) -> Parsed<Argument> {
+    let mut reader = Reader::new(pair);
+    let (name, type_name) = (reader.name()?, type_name(reader.take(Rule::type_name)?)?);
+    let default = if reader.has(Rule::expression) { Some(reader.expression()?) } else { None };
+    Ok(Argument { name, type_name, default })
+}
+
+fn type_name(pair: Pair<'_>) -> Parsed<TypeName> {
+    let mut reader = Reader::new(pair);
+    let base = named(reader.next()?);
+    let of = if reader.has(Rule::name) { Some(reader.name()?) } else { None };
+    let mut factors = Vec::new();
+    while let Some((operator, _)) = reader.peek().map(Pair::as_str).and_then(binary) {
+        reader.next()?;
+        factors.push((operator, reader.name()?));
+    }
+    Ok(TypeName { base, of, factors })
 }
 
 /// The content of a string.

@@ -161,6 +161,7 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::tell_word
             | Rule::plot_word
             | Rule::log_word
+            | Rule::list_word
             | Rule::kw_entry
             | Rule::kw_exit
             | Rule::kw_test

@@ -329,6 +329,7 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::tell_word => "tell",
         Rule::plot_word => "plot",
         Rule::log_word => "log",
+        Rule::list_word => "list",
         Rule::kw_always => "always",
         Rule::kw_test => "test",
         Rule::kw_property => "property",

@@ -148,9 +148,9 @@ fn message_lines(trace: &Trace, tick: usize) -> Vec<MessageLine<'_>> {
     let messages = trace.messages[first..].iter().take_while(|message| message.tick == tick);
     messages
         .map(|message| MessageLine {
-            text: &message.text,
+            text: &message.message.text,
             state: message.state.and_then(|state| trace.states.get(state)).map(String::as_str),
-            values: (message.values.iter())
+            values: (message.message.values.iter())
                 .map(|(name, value)| MessageValueLine { expression: name, value: ShownValue::new(value) })
                 .collect(),
         })

@@ -1,6 +1,5 @@
 //! The monitor of a run: it records the trace and decides when the run ends.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::geometry::{Point2, Vector2};
@@ -155,9 +154,8 @@ impl Monitor {
                 continue;
             }
             let message = &program.outputs.messages[message];
-            let values = message.values(&numbers, &program.whiskers).map(|(name, value)| (Arc::clone(name), value));
-            let (state, text, values) = (message.state, Arc::clone(&message.text), values.collect());
-            self.trace.messages.push(MessageRecord { tick, state, text, values });
+            let (state, message) = (message.state, message.shown(&numbers, &program.whiskers));
+            self.trace.messages.push(MessageRecord { tick, state, message });
         }
     }
 

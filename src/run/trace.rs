@@ -1,11 +1,8 @@
 //! Trace of a run, tick by tick.
 
-use std::fmt;
-use std::sync::Arc;
-
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::world::OutOfPlane;
-use vibrissa_runtime::machine::{Fallback, Mark, OutputKind, Shown};
+use vibrissa_runtime::machine::{Fallback, Mark, OutputKind, ShownMessage};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 /// Trace of a run, tick by tick.
@@ -54,21 +51,8 @@ pub struct MessageRecord {
     pub tick: usize,
     /// Index of the state that contains the statement. `None` outside of states.
     pub state: Option<usize>,
-    /// Its text.
-    pub text: Arc<str>,
-    /// The expressions that it shows, with their values.
-    pub values: Vec<(Arc<str>, Shown)>,
-}
-
-/// The text with its values, as in `the edge was lost: w = r0`.
-impl fmt::Display for MessageRecord {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)?;
-        for (index, (name, value)) in self.values.iter().enumerate() {
-            write!(f, "{} {name} = {value}", if index == 0 { ":" } else { "," })?;
-        }
-        Ok(())
-    }
+    /// The message with its values.
+    pub message: ShownMessage,
 }
 
 /// One mark.

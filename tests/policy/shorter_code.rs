@@ -32,7 +32,7 @@ fn what_is_felt_is_asked_for_once_until_a_tip_is_recorded() {
 
 #[test]
 fn what_may_have_been_left_out_is_not_relied_on() {
-    let steer = "steer body along r0.tip at speed turning 0 deg/s";
+    let steer = "steer body along r0.tip_base at speed turning 0 deg/s";
     let is_tip = |op: &Op| matches!(op, Op::WhiskerVector { .. });
     let program = doing(&format!("if r0.touching {{ {steer} }}  {steer}"));
     assert_eq!(count(body(&program), is_tip), 2);

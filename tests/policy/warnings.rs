@@ -124,7 +124,7 @@ fn what_never_or_always_holds_is_told() {
         ("time < 0 s", "P0508"),
         ("p >= 1", "P0509"),
         ("r.sense <= 0 or r.touching", "P0509"),
-        ("|unit(r.tip)| < 1.5", "P0509"),
+        ("|unit(r.tip_base)| < 1.5", "P0509"),
         ("clamp(r.length, 5 mm, 8 mm) > 4 mm", "P0509"),
     ] {
         assert_eq!(codes_of(&format!("when {guard} -> B")), [code], "{guard}");

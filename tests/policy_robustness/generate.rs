@@ -14,7 +14,7 @@ const fn rule(mark: char, ends: usize, forms: &'static [&'static str]) -> Rule {
 }
 
 /// In a form, `%` and a mark stand for what the mark's rule gives.
-const RULES: [Rule; 34] = [
+const RULES: [Rule; 35] = [
     // Truths, numbers, angles, lengths, times, speeds, vectors, whiskers, contours.
     rule(
         'b',
@@ -144,7 +144,12 @@ const RULES: [Rule; 34] = [
         ],
     ),
     // Places in the world.
-    rule('p', 3, &["body.position", "%w.tip", "%w.base", "%c.end", "%c.point(%l)", "vector(%l, %l)"]),
+    rule(
+        'p',
+        3,
+        &["body.position", "%w.tip", "%w.base", "%c.end", "%c.point(%l)", "position(%l, %l)", "blend(%p, %p, %n)"],
+    ),
+    rule('d', 2, &["direction(%a)", "%c.tangent", "unit(%v)", "-%d", "rotate(%d, %a)"]),
     rule('w', 2, &["r0", "l0"]),
     rule('c', 1, &["%w.contour"]),
     // Statements; those without a law of the policy itself; those that command nothing.
@@ -174,7 +179,7 @@ const RULES: [Rule; 34] = [
             "steer body along %v at %s facing %a",
             "steer %w along %v at %s facing %a",
             "do swipe(%w, %a, %s)",
-            "do detach(%w, %v, %s)",
+            "do detach(%w, %d, %s)",
         ],
     ),
     rule(
@@ -340,7 +345,7 @@ const RULES: [Rule; 34] = [
     rule(
         'u',
         1,
-        &["law detach(w: whisker, surface: vector, fast: speed) { steer w along -surface at fast turning 0 rad/s }"],
+        &["law detach(w: whisker, surface: direction, fast: speed) { steer w along -surface at fast turning 0 rad/s }"],
     ),
     rule(
         'g',
@@ -352,7 +357,7 @@ const RULES: [Rule; 34] = [
         'D',
         1,
         &["let twice(x: number) = gain * x + x let both(a: whisker, b: whisker) = a.touching and b.touching \
-            let near(place: vector of length, within: length) = |place - body.position| < within let bow(c: angle / length, d: length) = c * d \
+            let near(place: position, within: length) = |place - body.position| < within let bow(c: angle / length, d: length) = c * d \
             law follow(c: contour, fast: speed) { if c.ready { steer body along c.tangent at fast facing angle(c.tangent(5 mm)) } else { hold } }"],
     ),
     // States, and whole policies: of one file, of several, a library.
@@ -360,7 +365,8 @@ const RULES: [Rule; 34] = [
         'B',
         1,
         &[
-            "initial First state First { var kept = 0 %S set kept = %n + kept %T %T } state Second(w: whisker) { var kept = %n %S set kept = max(kept, %n) record w %S %T %F } \
+            "type Spot(place: position, far: length = 3 mm) type Spots = list of 3 position var spots = Spots() initial First state First { var kept = 0 %S set kept = %n + kept %T %T } state Second(w: whisker) { var kept = %n %S set kept = max(kept, %n) let spot = Spot(%p, far: %l) set spots = spots.with(spot.place) \
+            if |spots.nearest(%p) - spot.place| < spots.count * spot.far { record w } record w %S %T %F } \
             state Third(x: number, d: length) { %P %S when x > %n and d > %l -> %G %T } \
             state Outer(w: whisker) { initial Middle(%n) var held = %n failsafe -> %H entry { set held = %n mark lost w } record w %I \
             state Inner(x: number, d: length) { var own = x set own = lowpass(own, 1 Hz) + held set held = own / 2 %S when d > %l -> Middle(x) %I exit { mark found w } } \

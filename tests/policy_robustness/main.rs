@@ -27,7 +27,7 @@ const SWIPING: &str = include_str!("../fixtures/editor/thesis.fsm");
 const STACK: usize = 2 << 20;
 
 /// Words and signs of the language, and some that it does not have.
-const TOKENS: [&str; 113] = [
+const TOKENS: [&str; 117] = [
     "behaviour",
     "monitor",
     "is",
@@ -109,6 +109,10 @@ const TOKENS: [&str; 113] = [
     "clamp",
     "unit",
     "vector",
+    "position",
+    "direction",
+    "list of 3",
+    "with",
     "length",
     "number",
     "tip_at",

@@ -3,7 +3,8 @@
 use std::collections::HashSet;
 
 use crate::policy::ast::{
-    Argument, Connection, Contract, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition, Turn,
+    Argument, Compound, Connection, Contract, Expression, Guard, Kind, Name, State, Statement, Step, Target,
+    Transition, Turn,
 };
 
 /// A set of used names.
@@ -34,6 +35,11 @@ impl<'a> Names<'a> {
     /// Records the types of arguments.
     pub(super) fn types(&mut self, arguments: &'a [Argument]) {
         self.used.extend(arguments.iter().map(|argument| argument.type_name.base.text.as_str()));
+    }
+
+    /// Records the types that a record or a list consists of.
+    pub(super) fn compound(&mut self, item: &'a Compound) {
+        self.used.extend(item.types().map(|name| name.base.text.as_str()));
     }
 
     /// Adds the used names of an inner part, except those that it declares.

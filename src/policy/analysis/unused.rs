@@ -65,6 +65,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
         }
     }
     used.extend(&used_by_defaults);
+    file.compounds.iter().for_each(|item| used.compound(item));
     file.memory.iter().for_each(|(_, value)| used.expression(value));
     used.statements(&file.body);
     used.transitions(&file.always);
@@ -90,6 +91,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
     let contours = file.contours.iter().map(|contour| ("P0505", "contour", &contour.name));
     let laws = file.laws.iter().map(|law| ("P0506", "law", &law.name));
     let enumerations = file.enumerations.iter().map(|item| ("P0506", "type", &item.name));
+    let compounds = file.compounds.iter().map(|item| ("P0506", "type", &item.name));
     let derived = file.derived.iter().map(|derived| ("P0506", "derived value", &derived.name));
     let behaviours = file.behaviours.iter().map(|behaviour| ("P0506", "behaviour", &behaviour.name));
     let monitors = file.monitors.iter().map(|monitor| ("P0506", "monitor", &monitor.name));
@@ -101,6 +103,7 @@ pub(super) fn unused<'f>(files: &'f Files, warnings: &mut Vec<Diagnostic>) {
         .chain(behaviours)
         .chain(monitors)
         .chain(enumerations)
+        .chain(compounds)
     {
         if !used.has(&name.text) {
             warnings.push(never_used(code, kind, name, "use it or leave it out"));

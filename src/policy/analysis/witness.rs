@@ -111,8 +111,9 @@ fn dimension(model: &Model<'_>, unknown: Unknown) -> Dimension {
         Unknown::Contact(_) | Unknown::Contour(_) => None,
     };
     match r#type {
-        Some(Type::Scalar(dimension) | Type::Vector(dimension)) => dimension,
-        _ => Dimension::NUMBER,
+        Some(Type::Scalar(dimension)) => dimension,
+        Some(r#type) => r#type.components().unwrap_or(Dimension::NUMBER),
+        None => Dimension::NUMBER,
     }
 }
 
@@ -139,7 +140,7 @@ fn named_values(model: &Model<'_>, point: &Point) -> Vec<String> {
         let shown = match named.r#type {
             _ if let Some((_, choice)) = choice => choice.clone(),
             Type::Whisker | Type::Contour => index_name(model.program, value).to_owned(),
-            Type::Vector(_) => {
+            r#type if r#type.components().is_some() => {
                 let part = |register| point.value(Unknown::Register(register));
                 show(named.r#type, [part(named.first), part(named.first + 1)])
             }
@@ -171,8 +172,13 @@ fn exact(value: f64, dimension: Dimension) -> String {
 fn show(r#type: Type, [x, y]: [f64; 2]) -> String {
     match r#type {
         Type::Scalar(dimension) => exact(x, dimension),
-        Type::Vector(dimension) => format!("vector({}, {})", exact(x, dimension), exact(y, dimension)),
-        _ => (x > 0.5).to_string(),
+        r#type => match r#type.components() {
+            Some(dimension) => {
+                let function = if r#type == Type::Position { "position" } else { "vector" };
+                format!("{function}({}, {})", exact(x, dimension), exact(y, dimension))
+            }
+            None => (x > 0.5).to_string(),
+        },
     }
 }
 

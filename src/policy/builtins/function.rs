@@ -19,6 +19,7 @@ pub(in crate::policy) enum Function {
     Floor,
     Direction,
     Vector,
+    Position,
     Unit,
     Angle,
     Rotate,
@@ -35,7 +36,7 @@ pub(in crate::policy) enum Function {
 }
 
 /// Every function: its name, the function, its notation and its result.
-pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 29] = [
+pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 30] = [
     ("abs", Function::Abs, "abs(x)", "the absolute value of a number"),
     ("sign", Function::Sign, "sign(x)", "\u{2212}1, 0 or 1, the sign of a number"),
     (
@@ -59,12 +60,18 @@ pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 29] = [
         "direction",
         Function::Direction,
         "direction(angle)",
-        "the unit vector with the direction of an angle (0 is along x, counter-clockwise positive)",
+        "the direction with an angle (0 is along x, counter-clockwise positive)",
     ),
     ("vector", Function::Vector, "vector(x, y)", "the vector with these components"),
-    ("unit", Function::Unit, "unit(vector)", "the unit vector with the direction of a vector, a plain vector"),
-    ("angle", Function::Angle, "angle(vector)", "the direction of a vector, from \u{2212}180 deg to 180 deg"),
-    ("rotate", Function::Rotate, "rotate(vector, angle)", "the vector, rotated counter-clockwise by the angle"),
+    ("position", Function::Position, "position(x, y)", "the position with these coordinates in the world frame"),
+    ("unit", Function::Unit, "unit(vector)", "the direction of a vector"),
+    ("angle", Function::Angle, "angle(vector)", "the angle of a vector, from \u{2212}180 deg to 180 deg"),
+    (
+        "rotate",
+        Function::Rotate,
+        "rotate(vector, angle)",
+        "the vector, rotated counter-clockwise by the angle. A rotated direction is a direction",
+    ),
     (
         "turn",
         Function::Turn,
@@ -95,7 +102,7 @@ pub(in crate::policy) const FUNCTIONS: [(&str, Function, &str, &str); 29] = [
         "previous",
         Function::Previous,
         "previous(x)",
-        "a number or a vector as it was at the last earlier tick in which it was computed. At first, the value itself",
+        "a number, a vector or a position as it was at the last earlier tick in which it was computed. At first, the value itself",
     ),
     ("peak", Function::Peak, "peak(x)", "the largest value of a number since the state was entered"),
     (
@@ -125,7 +132,8 @@ impl Function {
             Self::Sqrt => "one number with a dimension that is a square, such as an area",
             Self::Min | Self::Max | Self::Vector => "two numbers of one dimension",
             Self::Clamp => "three numbers of one dimension: the value, the minimum, the maximum",
-            Self::Blend => "two numbers or two vectors of one dimension, and a plain number",
+            Self::Blend => "two numbers, two vectors of one dimension or two positions, and a plain number",
+            Self::Position => "two lengths",
             Self::Sin | Self::Cos | Self::Tan | Self::Direction | Self::Wrap => "one angle",
             Self::Asin | Self::Acos | Self::Exp | Self::Floor => "one plain number",
             Self::Unit | Self::Angle => "one vector",
@@ -133,7 +141,7 @@ impl Function {
             Self::Turn => "two angles",
             Self::Dot | Self::Cross => "two vectors",
             Self::LowPass => "a number and a frequency",
-            Self::Previous => "a number or a vector",
+            Self::Previous => "a number, a vector or a position",
             Self::Settled => "two numbers of one dimension, and a time",
             Self::PathLength => "a position",
             Self::Pid => {

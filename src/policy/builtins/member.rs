@@ -74,7 +74,7 @@ const fn scalar(name: &'static str, r#type: Type, quantity: WhiskerScalar, meani
 }
 
 const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
-    member(name, Type::POSITION, MemberSource::Vector(quantity), meaning)
+    member(name, Type::Position, MemberSource::Vector(quantity), meaning)
 }
 
 /// A vector of plain numbers has components of this type.
@@ -111,10 +111,11 @@ const WHISKER: [Member; 14] = [
     ),
     scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of the shaft"),
     position("tip", WhiskerVector::Tip, "the position of the tip, as estimated by the contact estimator"),
-    position(
+    member(
         "tip_base",
-        WhiskerVector::TipBase,
-        "the position of the tip relative to the base: x along the undeflected shaft, y to its left",
+        Type::DISPLACEMENT,
+        MemberSource::Vector(WhiskerVector::TipBase),
+        "the displacement of the tip from the base: x along the undeflected shaft, y to its left",
     ),
     scalar(
         "tip_spread",
@@ -133,9 +134,9 @@ const WHISKER: [Member; 14] = [
         at: Some(At::Tip),
         ..member(
             "tip_at",
-            Type::POSITION,
+            Type::DISPLACEMENT,
             MemberSource::At,
-            "the position of the tip at a given base angle, relative to the base",
+            "the displacement of the tip from the base at a given base angle, in the axes of `tip_base`",
         )
     },
     Member {
@@ -166,7 +167,7 @@ const CONTOUR: [Member; 6] = [
         at: Some(At::Contour(ContourVector::Tangent)),
         ..member(
             "tangent",
-            Type::Vector(Dimension::NUMBER),
+            Type::Direction,
             MemberSource::Vector(WhiskerVector::ContourTangent),
             "the tangent of the curve in the direction of travel, at its newest end or at a distance behind it",
         )
@@ -175,7 +176,7 @@ const CONTOUR: [Member; 6] = [
         at: Some(At::Contour(ContourVector::Normal)),
         ..member(
             "normal",
-            Type::Vector(Dimension::NUMBER),
+            Type::Direction,
             MemberSource::Vector(WhiskerVector::ContourNormal),
             "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded. A contour of positions has it on the left",
         )
@@ -185,7 +186,7 @@ const CONTOUR: [Member; 6] = [
         at: Some(At::Contour(ContourVector::Point)),
         ..member(
             "point",
-            Type::POSITION,
+            Type::Position,
             MemberSource::At,
             "the point of the curve at a distance behind its newest end",
         )
@@ -205,7 +206,7 @@ const BODY: [Member; 11] = [
         MemberSource::Body(BodyScalar::Yaw),
         "the heading of the platform, without wrapping at full rotations",
     ),
-    member("position", Type::POSITION, MemberSource::BodyPosition, "the centre of mass of the platform"),
+    member("position", Type::Position, MemberSource::BodyPosition, "the centre of mass of the platform"),
     member(
         "blocked",
         Type::Truth,
@@ -218,8 +219,8 @@ const BODY: [Member; 11] = [
         MemberSource::Body(BodyScalar::Shortfall),
         "the difference between commanded and actual speed, averaged over 0.2 s, at the corner of the body where it is largest",
     ),
-    member("nose", Type::POSITION, MemberSource::Nose, "the middle of the nose of the platform, from the rig"),
-    member("tail", Type::POSITION, MemberSource::Tail, "the middle of the tail of the platform, from the rig"),
+    member("nose", Type::Position, MemberSource::Nose, "the middle of the nose of the platform, from the rig"),
+    member("tail", Type::Position, MemberSource::Tail, "the middle of the tail of the platform, from the rig"),
     member(
         "length",
         Type::LENGTH,
@@ -370,14 +371,24 @@ const RUN: [Member; 26] = [
     member("last", Type::NUMBER, MemberSource::Plot(PlotFigure::Last), "its last value"),
 ];
 
+/// The members of a list: the name, the notation and the meaning.
+pub(in crate::policy) const LIST_MEMBERS: [(&str, &str, &str); 6] = [
+    ("count", "count", "the number of its elements"),
+    ("newest", "newest", "the element that was added last. Unknown in an empty list"),
+    ("oldest", "oldest", "the element that was added first of those that it has. Unknown in an empty list"),
+    ("element", "element(index)", "the element with an index, from 0 for the newest. Unknown if there is none"),
+    ("nearest", "nearest(position)", "of a list of positions, the one nearest to a position. Unknown in an empty list"),
+    ("with", "with(value)", "the list with a new element. A full list loses its oldest element"),
+];
+
 /// The members of a type.
 pub(in crate::policy) fn members(owner: Type) -> &'static [Member] {
     match owner {
         Type::Whisker => &WHISKER,
         Type::Contour => &CONTOUR,
         Type::Body => &BODY,
-        Type::Vector(_) => &VECTOR,
+        Type::Vector(_) | Type::Position | Type::Direction => &VECTOR,
         Type::Run => &RUN,
-        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Monitor(_) => &[],
+        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Compound(_) | Type::Monitor(_) => &[],
     }
 }

@@ -6,12 +6,12 @@ mod member;
 mod reference;
 
 pub(super) use function::{FUNCTIONS, Function, function};
-pub(super) use member::{At, Member, MemberSource, members};
+pub(super) use member::{At, LIST_MEMBERS, Member, MemberSource, members};
 
 #[cfg(test)]
 mod tests {
     use super::FUNCTIONS;
-    use crate::policy::types::DIMENSIONS;
+    use crate::policy::types::{DIMENSIONS, PLAIN_TYPES};
 
     #[test]
     fn the_editors_grammar_lists_the_functions_and_types_of_the_language() {
@@ -19,7 +19,7 @@ mod tests {
         let list =
             |words: &mut dyn Iterator<Item = &'static str>| format!(r"\\b({})\\b", words.collect::<Vec<_>>().join("|"));
         assert!(grammar.contains(&list(&mut FUNCTIONS.iter().map(|&(name, ..)| name))));
-        let types = ["truth", "contour", "vector"].into_iter().chain(DIMENSIONS.map(|(name, _)| name));
+        let types = PLAIN_TYPES.into_iter().filter(|&name| name != "whisker").chain(DIMENSIONS.map(|(name, _)| name));
         assert!(grammar.contains(&list(&mut { types })));
     }
 }

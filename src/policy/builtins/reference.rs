@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::catalogue::{self, Parameter};
 use crate::diagnostic::Source;
-use crate::policy::ast::{Argument, Behaviour, Name};
+use crate::policy::ast::{Argument, Behaviour, Content, Name};
 use crate::policy::description::{description, whole_description};
 use crate::policy::parse::parse;
 use crate::policy::standard::{MODULES, ROOT};
@@ -12,7 +12,7 @@ use crate::policy::types::{DIMENSIONS, Type};
 use crate::policy::unit::units_of;
 use vibrissa_runtime::units::Dimension;
 
-use super::{At, FUNCTIONS, MemberSource, members};
+use super::{At, FUNCTIONS, LIST_MEMBERS, MemberSource, members};
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference.md");
 
@@ -56,6 +56,8 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
         row(&mut page, [&format!("`{name}`"), &units]);
     }
     page += "\
+| `position` | a point of the world frame, with `x` and `y`. The difference of two positions is a displacement, `vector of length` |
+| `direction` | a unit vector, with `x` and `y`. It is also a `vector` |
 | `vector`, `vector of length`, \u{2026} | two components `x` and `y`, plain or with one dimension |
 | `angular_speed / length`, `vector of length / time`, \u{2026} | products and quotients of dimensions |
 
@@ -94,6 +96,10 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
             };
             row(&mut page, [&usage, &r#type, member.meaning]);
         }
+    }
+    page += "\n### Members of a list\n\n| member | meaning |\n|---|---|\n";
+    for (_, usage, meaning) in LIST_MEMBERS {
+        row(&mut page, [&format!("`list.{usage}`"), meaning]);
     }
     page += "\n## Functions\n\n| function | arguments | result |\n|---|---|---|\n";
     for (_, function, usage, meaning) in FUNCTIONS {
@@ -152,12 +158,19 @@ fn standard(page: &mut String) {
                 .unwrap_or_else(|| panic!("{} has no description", item.name.text));
             row(page, [&format!("`type {} = {values}`", item.name.text), &said]);
         }
+        for item in &file.compounds {
+            let said = whole_description(&source, item.name.span)
+                .unwrap_or_else(|| panic!("{} has no description", item.name.text));
+            let content = match &item.content {
+                Content::Record(fields) => format!("({})", typed(&source, fields)),
+                Content::List { most, element } => {
+                    format!(" = list of {} {}", most.text, source.slice(element.span()))
+                }
+            };
+            row(page, [&format!("`type {}{content}`", item.name.text), &said]);
+        }
         for (kind, name, arguments) in items {
-            let arguments = arguments.iter().map(|one| {
-                let end = one.default.as_ref().map_or(one.type_name.span(), |default| default.span);
-                format!("{}: {}", one.name.text, source.slice(one.type_name.span().to(end)))
-            });
-            let arguments = arguments.collect::<Vec<_>>().join(", ");
+            let arguments = typed(&source, arguments);
             let arguments = if arguments.is_empty() && kind == "let" { arguments } else { format!("({arguments})") };
             let said =
                 whole_description(&source, name.span).unwrap_or_else(|| panic!("{} has no description", name.text));
@@ -167,13 +180,23 @@ fn standard(page: &mut String) {
     }
 }
 
+/// Arguments or fields with their types.
+fn typed(source: &Source, arguments: &[Argument]) -> String {
+    let arguments = arguments.iter().map(|one| {
+        let end = one.default.as_ref().map_or(one.type_name.span(), |default| default.span);
+        format!("{}: {}", one.name.text, source.slice(one.type_name.span().to(end)))
+    });
+    arguments.collect::<Vec<_>>().join(", ")
+}
+
 /// The exits and contracts of a behaviour, and how to draw its chart.
 fn behaviour(page: &mut String, (module, source): (&str, &Source), item: &Behaviour) {
     let (name, root) = (&item.name.text, item.root());
+    let depth = if item.states.iter().any(|state| state.behaviour.is_some()) { " --depth 1" } else { "" };
     let _ = write!(
         page,
         "\n#### `{name}`\n\nIts tests are in `policies/tests/{module}.fsm`. This is its [statechart](pictures/behaviours/{name}.svg), as \
-         `vibrissa graph policies/std/{module}.fsm --state {name}` draws it:\n\n\
+         `vibrissa graph policies/std/{module}.fsm --state {name}{depth}` draws it:\n\n\
          ![Statechart of {name}](pictures/behaviours/{name}.svg)\n\n| exit | meaning |\n|---|---|\n"
     );
     for exit in &root.exits {

@@ -48,11 +48,13 @@ impl Variable {
         let value = at(self.value.register)?;
         Some(match self.value.r#type {
             Type::Scalar(dimension) => VariableValue::Number(value, dimension),
-            Type::Vector(dimension) => VariableValue::Vector([value, at(self.value.register + 1)?], dimension),
+            r#type if let Some(dimension) = r#type.components() => {
+                VariableValue::Vector([value, at(self.value.register + 1)?], dimension)
+            }
             Type::Truth => VariableValue::Truth(value > 0.5),
             Type::Whisker | Type::Contour => VariableValue::Name(program.contour_name(index(value))?.to_owned()),
             Type::Choice(_) => VariableValue::Name(self.choices.get(index(value))?.clone()),
-            Type::Body | Type::Run | Type::Monitor(_) => return None,
+            _ => return None,
         })
     }
 }

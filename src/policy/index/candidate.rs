@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use crate::catalogue;
 use crate::diagnostic::Span;
 use crate::policy::ast::{Name, TypeName};
-use crate::policy::builtins::{self, FUNCTIONS, MemberSource};
+use crate::policy::builtins::{self, FUNCTIONS, LIST_MEMBERS, MemberSource};
 use crate::policy::standard::{MODULES, ROOT};
-use crate::policy::types::{DIMENSIONS, Type};
+use crate::policy::types::{Compound, DIMENSIONS, PLAIN_TYPES, Type};
 use crate::policy::unit::units_of;
 use vibrissa_runtime::units::Dimension;
 
@@ -88,6 +88,7 @@ impl Index {
             Expected::Nothing => Vec::new(),
             Expected::Member(dot) => match self.resolved.owners.get(&dot) {
                 Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
+                Some(&Owner::Value(Type::Compound(of))) => self.members_of(of),
                 Some(&Owner::Value(owner)) => members(owner).collect(),
                 Some(&Owner::State(monitor)) if self.symbols[monitor].kind != SymbolKind::State => {
                     let content = self.resolved.behaviours.get(&monitor).copied().unwrap_or(monitor);
@@ -126,8 +127,8 @@ impl Index {
             Expected::Connected => self.connected(context),
             Expected::Memory => of_kind(&[SymbolKind::Memory]).collect(),
             Expected::Type => {
-                let built_in = ["whisker", "contour", "truth", "vector"].into_iter().map(of_type).chain(dimensions());
-                built_in.chain(of_kind(&[SymbolKind::Enumeration])).collect()
+                let built_in = PLAIN_TYPES.into_iter().map(of_type).chain(dimensions());
+                built_in.chain(of_kind(&[SymbolKind::Enumeration])).chain(self.compounds(context)).collect()
             }
             Expected::Dimension => dimensions().collect(),
             Expected::Unit => units().collect(),
@@ -147,7 +148,7 @@ impl Index {
     pub(super) fn known(&self, context: &Context) -> impl Iterator<Item = &Symbol> {
         let at = context.typed.start;
         let known = self.symbols.iter().filter(move |symbol| {
-            symbol.kind != SymbolKind::Choice
+            !matches!(symbol.kind, SymbolKind::Choice | SymbolKind::Field)
                 && (symbol.visible.start..=symbol.visible.end).contains(&at)
                 && context.statement != Some(symbol.whole.start)
                 && (symbol.kind != SymbolKind::Local || self.is_known_local(symbol, context))
@@ -171,9 +172,35 @@ impl Index {
     }
 
     fn values(&self, context: &Context) -> Vec<Candidate> {
-        let is_value = |symbol: &&Symbol| symbol.kind.is_value() || symbol.kind == SymbolKind::Enumeration;
+        let is_value = |symbol: &&Symbol| {
+            symbol.kind.is_value() || matches!(symbol.kind, SymbolKind::Enumeration | SymbolKind::Compound)
+        };
         let named = self.known(context).filter(is_value).map(|symbol| self.symbol(symbol));
         named.chain(keywords_at(Position::Value).map(of_keyword)).chain(functions()).collect()
+    }
+
+    /// The records and lists, as types.
+    fn compounds(&self, context: &Context) -> impl Iterator<Item = Candidate> {
+        let compounds = self.known(context).filter(|symbol| symbol.kind == SymbolKind::Compound);
+        compounds.map(|symbol| Candidate { snippet: symbol.name.clone(), ..self.symbol(symbol) })
+    }
+
+    /// The fields of a record, or the members of a list.
+    fn members_of(&self, of: Compound) -> Vec<Candidate> {
+        let Some(owner) = self.symbols.iter().position(|symbol| symbol.span == of.declared) else { return Vec::new() };
+        let fields = self.symbols.iter().filter(|symbol| symbol.owner == Some(owner));
+        let fields: Vec<Candidate> = fields.map(|symbol| self.symbol(symbol)).collect();
+        if !fields.is_empty() {
+            return fields;
+        }
+        let members = LIST_MEMBERS.iter().map(|&(name, usage, meaning)| Candidate {
+            label: name.to_owned(),
+            kind: CandidateKind::Member,
+            detail: usage.to_owned(),
+            meaning: meaning.to_owned(),
+            snippet: call_snippet(usage),
+        });
+        members.collect()
     }
 
     /// Values that expectations of tests can read.
@@ -206,7 +233,8 @@ impl Index {
     }
 
     pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {
-        let detail = symbol.r#type.map_or_else(|| self.head(symbol), |r#type| self.phrase(r#type));
+        let r#type = symbol.r#type.filter(|_| symbol.kind != SymbolKind::Compound);
+        let detail = r#type.map_or_else(|| self.head(symbol), |r#type| self.phrase(r#type));
         let usage = format!("{}({})", symbol.name, symbol.arguments.join(", "));
         let snippet = if symbol.arguments.is_empty() && symbol.kind != SymbolKind::Law {
             symbol.name.clone()

@@ -193,13 +193,15 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
             Expected::Nothing
         }
         (TokenKind::Mark, "*" | "/") if is_declaring(statement) => Expected::Dimension,
-        (TokenKind::Mark, "=") if matches!(head, Some("param" | "property" | "type")) => Expected::Nothing,
+        (TokenKind::Mark, "=") if head == Some("type") => Expected::Only("list"),
+        (TokenKind::Mark, "=") if matches!(head, Some("param" | "property")) => Expected::Nothing,
         (TokenKind::Keyword, "or") if head == Some("type") => Expected::Nothing,
         (TokenKind::Mark, "=") if level == Level::Test && head == Some("set") => Expected::Nothing,
         (TokenKind::Mark, ")" | "}") => more(statement, level),
         (TokenKind::Mark, "|") if closes_a_norm(statement) => more(statement, level),
         (TokenKind::Mark, _) => Expected::Value,
         // A unit is on the same line as its number.
+        (TokenKind::Number, _) if head == Some("type") && behind(known, 1) == Some("of") => Expected::Type,
         (TokenKind::Number, _) if head == Some("contour") && behind(known, 1) == Some("of") => Expected::Only("points"),
         (TokenKind::Number, _) if known_apart(typed, *before) => more(statement, level),
         (TokenKind::Number, _) => Expected::Unit,
@@ -258,7 +260,7 @@ fn is_declaring(statement: &[Token<'_>]) -> bool {
     match statement.first().map(|token| token.text) {
         Some("state" | "monitor") => !statement.iter().any(|token| token.text == "is"),
         Some("law" | "behaviour" | "exit" | "whisker") => true,
-        Some("let") => !has_value(statement),
+        Some("let" | "type") => !has_value(statement),
         _ => false,
     }
 }

@@ -126,6 +126,7 @@ impl<'t> Declared<'t> {
         let kind = match token.text {
             "machine" | "library" => SymbolKind::Machine,
             "param" => SymbolKind::Parameter,
+            "type" if is_compound(&tokens[index + 1..]) => SymbolKind::Compound,
             "type" => SymbolKind::Enumeration,
             "law" => SymbolKind::Law,
             "state" => SymbolKind::State,
@@ -158,6 +159,7 @@ impl<'t> Declared<'t> {
                 | SymbolKind::Monitor
                 | SymbolKind::Exit
                 | SymbolKind::Event
+                | SymbolKind::Compound
                 | SymbolKind::Derived => self.arguments(tokens, name + 1, declared),
                 SymbolKind::Parameter => self.symbols[declared].r#type = parameter_type(&tokens[name..]),
                 SymbolKind::Enumeration => self.choices(tokens, name + 1, declared),
@@ -217,9 +219,10 @@ impl<'t> Declared<'t> {
             let whole = span.to(span_of(tokens[end]));
             self.symbols[owner].arguments.push(name.text.to_owned());
             let index = self.symbols.len();
+            let is_field = self.symbols[owner].kind == SymbolKind::Compound;
             self.symbols.push(Symbol {
                 name: name.text.to_owned(),
-                kind: SymbolKind::Argument,
+                kind: if is_field { SymbolKind::Field } else { SymbolKind::Argument },
                 span,
                 whole,
                 arguments: Vec::new(),
@@ -227,7 +230,10 @@ impl<'t> Declared<'t> {
                 visible: span,
                 r#type,
             });
-            if let Some(frame) = self.frame() {
+            // A field is known only as a member of its record.
+            if let Some(frame) = self.frame()
+                && !is_field
+            {
                 frame.pending.push(index);
             }
             at = behind_default(tokens, end + 1);
@@ -360,6 +366,12 @@ fn behind_default(tokens: &[Token<'_>], at: usize) -> usize {
         }
     }
     tokens.len()
+}
+
+/// True if the tokens after `type` declare a record or a list: `Edge(`, `Places = list of`.
+fn is_compound(tokens: &[Token<'_>]) -> bool {
+    let is = |at: usize, text: &str| tokens.get(at).is_some_and(|token| token.text == text);
+    is(1, "(") || is(1, "=") && is(2, "list") && is(3, "of")
 }
 
 fn begins_line_unindented(text: &str, start: usize) -> bool {

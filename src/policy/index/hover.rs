@@ -1,7 +1,7 @@
 //! Hover texts.
 
 use crate::diagnostic::Span;
-use crate::policy::builtins::{FUNCTIONS, Member, MemberSource};
+use crate::policy::builtins::{FUNCTIONS, LIST_MEMBERS, Member, MemberSource};
 use crate::policy::description::description;
 use crate::policy::types::Type;
 use crate::policy::unit::units_of;
@@ -39,6 +39,14 @@ impl Index {
                 let head = code(&usages(owner, &member).join("\n"));
                 paragraphs(&[head, type_line(member.r#type), member.meaning.to_owned()])
             }
+            Meaning::ListMember(list, member) => {
+                let (_, usage, meaning) = LIST_MEMBERS[member];
+                paragraphs(&[
+                    code(&format!("list.{usage}")),
+                    format!("of a `{}`", self.symbols[list].name),
+                    meaning.to_owned(),
+                ])
+            }
             Meaning::File(part) => self.explain_file(part),
             Meaning::Type(r#type) => paragraphs(&[code(self.source.slice(known.span)), type_line(r#type)]),
             Meaning::Unit(dimension) => {
@@ -66,21 +74,23 @@ impl Index {
     }
 
     fn explain(&self, symbol: &Symbol) -> String {
-        let types = symbol.r#type.map(|r#type| self.type_line(r#type)).unwrap_or_default();
+        let r#type = symbol.r#type.filter(|_| symbol.kind != SymbolKind::Compound);
+        let types = r#type.map(|r#type| self.type_line(r#type)).unwrap_or_default();
         let file = self.file_of(symbol).map(|file| format!("from `{file}`")).unwrap_or_default();
         paragraphs(&[code(&self.head(symbol)), types, self.description(symbol), file])
     }
 
     /// The type and its units.
     fn type_line(&self, r#type: Type) -> String {
-        if let Type::Choice(_) = r#type { self.phrase(r#type) } else { type_line(r#type) }
+        if let Type::Choice(_) | Type::Compound(_) = r#type { self.phrase(r#type) } else { type_line(r#type) }
     }
 
     /// A type in texts.
     pub(super) fn phrase(&self, r#type: Type) -> String {
-        let is_it = |symbol: &&Symbol, declared| symbol.kind == SymbolKind::Enumeration && symbol.span == declared;
+        let is_it = |symbol: &&Symbol, declared| symbol.span == declared;
         let item = match r#type {
             Type::Choice(choices) => self.symbols.iter().find(|symbol| is_it(symbol, choices.declared)),
+            Type::Compound(of) => self.symbols.iter().find(|symbol| is_it(symbol, of.declared)),
             _ => None,
         };
         item.map_or_else(|| r#type.to_string(), |item| format!("a `{}`", item.name))

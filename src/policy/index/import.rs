@@ -113,8 +113,8 @@ fn is_part(symbol: &Symbol) -> bool {
 
 /// True if other files can use a symbol of a file.
 fn is_export(symbol: &Symbol) -> bool {
-    use SymbolKind::{Behaviour, Derived, Enumeration, Law, Monitor};
-    matches!(symbol.kind, Law | Derived | Enumeration | Behaviour | Monitor) && symbol.owner.is_none()
+    use SymbolKind::{Behaviour, Compound, Derived, Enumeration, Law, Monitor};
+    matches!(symbol.kind, Law | Derived | Enumeration | Compound | Behaviour | Monitor) && symbol.owner.is_none()
 }
 
 /// The exported symbols of a part of a source: its laws, derived values, enumerations, behaviours and monitors.

@@ -29,6 +29,8 @@ pub(super) enum Position {
     TipModel,
     /// After the title of a property.
     Property,
+    /// After the `=` of a type.
+    Type,
 }
 
 /// A keyword.
@@ -89,7 +91,7 @@ const TIP_MODEL: &[Position] = &[Position::TipModel];
 const PROPERTY: &[Position] = &[Position::Property];
 
 /// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 80] = [
+pub(super) const KEYWORDS: [Keyword; 81] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -123,6 +125,12 @@ pub(super) const KEYWORDS: [Keyword; 80] = [
         "After `whisker a if`: these whiskers are optional. A missing whisker never touches, and its `a.fitted` is false.",
     ),
     entry(
+        "list",
+        &[Position::Type],
+        "list of ${1:8} ${2:position}",
+        "A list with at most so many elements of a type. A list is a value: `seen.with(w.tip)` is a list with a new element.",
+    ),
+    entry(
         "contour",
         ITEM,
         "contour ${1:middle} of ${2:7} points ${3:5 mm} apart",
@@ -146,7 +154,7 @@ pub(super) const KEYWORDS: [Keyword; 80] = [
         "type",
         ITEM,
         "type ${1:Side} = ${2:left} or ${3:right}",
-        "An enumeration with its values, which are read as `Side.left`.",
+        "A type: an enumeration such as `Side = left or right`, a record such as `Edge(place: position, way: direction)`, or a list such as `Places = list of 8 position`.",
     ),
     entry(
         "initial",

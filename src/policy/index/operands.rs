@@ -49,7 +49,8 @@ impl<'s> Operands<'s> {
     pub(super) fn argument(&self, name: &str) -> Option<usize> {
         let callee = self.open.last()?.callee?;
         let behind = self.symbols.iter().enumerate().skip(callee + 1);
-        let mut arguments = behind.take_while(|(_, symbol)| symbol.kind == SymbolKind::Argument);
+        let mut arguments =
+            behind.take_while(|(_, symbol)| matches!(symbol.kind, SymbolKind::Argument | SymbolKind::Field));
         arguments.find(|(_, symbol)| symbol.owner == Some(callee) && symbol.name == name).map(|(index, _)| index)
     }
 
@@ -86,6 +87,12 @@ impl<'s> Operands<'s> {
                 _ => self.symbols[symbol].r#type.map(Owner::Value),
             },
             (_, _, Some(Meaning::Member(_, member))) => Some(Owner::Value(member.r#type)),
+            (_, _, Some(Meaning::ListMember(list, _))) => match token.text {
+                "count" => Some(Owner::Value(Type::NUMBER)),
+                "with" => self.last,
+                // The type of a list's symbol is that of its elements.
+                _ => self.symbols[list].r#type.map(Owner::Value),
+            },
             _ => None,
         };
         self.symbol = match meaning {

@@ -135,7 +135,7 @@ impl Index {
 /// True if both names are visible at one position, so that they must differ. The machine's name is independent of all
 /// others.
 fn meet(a: &Symbol, b: &Symbol) -> bool {
-    if a.kind == SymbolKind::Choice || b.kind == SymbolKind::Choice {
+    if [a.kind, b.kind].iter().any(|kind| matches!(kind, SymbolKind::Choice | SymbolKind::Field)) {
         return a.kind == b.kind && a.owner == b.owner;
     }
     let (a_reach, b_reach) = (a.visible.to(a.span), b.visible.to(b.span));

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use crate::catalogue::{self, Entry};
 use crate::diagnostic::{Source, Span};
-use crate::policy::builtins::{self, FUNCTIONS};
+use crate::policy::builtins::{self, FUNCTIONS, LIST_MEMBERS};
 use crate::policy::format::{Token, TokenKind};
-use crate::policy::types::{Type, dimension};
+use crate::policy::types::{Compound, Type, dimension};
 use vibrissa_runtime::units::parse_unit;
 
 use super::applied::{self, Applied};
@@ -55,7 +55,8 @@ pub(super) fn resolve(
         let is_before = |text: &str| before.is_some_and(|before| before.text == text);
         let is_word = matches!(token.kind, TokenKind::Name | TokenKind::Keyword);
         let meaning = match token.kind {
-            _ if is_word && is_before(":") && names.is_declaration(tokens, index) => {
+            // Behind a number, the type looks like a unit.
+            _ if is_element(tokens, index) || is_word && is_before(":") && names.is_declaration(tokens, index) => {
                 let named = type_name(tokens, index);
                 type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
                 let built_in = named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type);
@@ -66,7 +67,9 @@ pub(super) fn resolve(
                 built_in.or_else(|| own.map(|index| Meaning::Symbol(index, Role::Reads)))
             }
             TokenKind::Name if index < type_end => dimension(token.text).map(|of| Meaning::Type(Type::Scalar(of))),
-            TokenKind::Name if is_before("mark") || is_before("needs") => {
+            TokenKind::Name
+                if is_before("mark") || is_before("needs") || is_before("=") && is_element(tokens, index + 3) =>
+            {
                 keyword(token.text).filter(|word| is_contextual(word)).map(|word| Meaning::Keyword(word.text))
             }
             TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
@@ -84,11 +87,9 @@ pub(super) fn resolve(
                 Entry::parameter(family, token.text).map(Meaning::FamilyParameter)
             }
             TokenKind::Name if is_before(".") => operands.last.and_then(|owner| match owner {
+                Owner::Value(Type::Compound(of)) => part(symbols, of, token.text),
                 Owner::Value(owner) => member(owner, token.text),
-                Owner::Enumeration(owner) => {
-                    let is_it = |symbol: &Symbol| symbol.owner == Some(owner) && symbol.name == token.text;
-                    symbols.iter().position(is_it).map(|choice| Meaning::Symbol(choice, Role::Reads))
-                }
+                Owner::Enumeration(owner) => owned(symbols, owner, token.text),
                 Owner::State(outer) => {
                     let inner = applied::inner(symbols, &resolved.behaviours, outer, token.text);
                     let state = inner.or_else(|| names.state(token.text));
@@ -159,14 +160,38 @@ fn is_family(before: &[Token<'_>]) -> bool {
     matches!(before, [.., title, over] if title.kind == TokenKind::Text && over.text == "over")
 }
 
+/// True if a token is the type of the elements of a list: after `list of 8`.
+fn is_element(tokens: &[Token<'_>], index: usize) -> bool {
+    matches!(tokens.get(..index), Some([.., list, of, most])
+        if list.text == "list" && of.text == "of" && most.kind == TokenKind::Number)
+}
+
 /// True if a word has its meaning only after `mark`, `needs` or the title of a property.
 fn is_contextual(word: &Keyword) -> bool {
-    [[Position::Mark], [Position::Need], [Position::Property]].iter().any(|positions| word.positions == positions)
+    [[Position::Mark], [Position::Need], [Position::Property], [Position::Type]]
+        .iter()
+        .any(|positions| word.positions == positions)
 }
 
 /// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.
 fn is_fitted(text: &str, next: Option<&Token<'_>>) -> bool {
     text == "fitted" && next.is_none_or(|next| next.kind == TokenKind::Keyword && !["and", "or"].contains(&next.text))
+}
+
+/// A field of a record, or a member of a list.
+fn part(symbols: &[Symbol], of: Compound, name: &str) -> Option<Meaning> {
+    let owner = symbols.iter().position(|symbol| symbol.span == of.declared)?;
+    if symbols[owner].arguments.is_empty() {
+        let member = LIST_MEMBERS.iter().position(|&(member, ..)| member == name);
+        return member.map(|member| Meaning::ListMember(owner, member));
+    }
+    owned(symbols, owner, name)
+}
+
+/// A field of a record, or a value of an enumeration.
+fn owned(symbols: &[Symbol], owner: usize, name: &str) -> Option<Meaning> {
+    let is_it = |symbol: &Symbol| symbol.owner == Some(owner) && symbol.name == name;
+    symbols.iter().position(is_it).map(|part| Meaning::Symbol(part, Role::Reads))
 }
 
 fn member(owner: Type, name: &str) -> Option<Meaning> {
@@ -188,8 +213,9 @@ struct Names<'s> {
 impl<'s> Names<'s> {
     fn new(symbols: &'s [Symbol]) -> Self {
         // The machine's name cannot be referred to. A value of an enumeration and an event are members.
-        let is_unknown_alone =
-            |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Machine | SymbolKind::Choice | SymbolKind::Event);
+        let is_unknown_alone = |symbol: &Symbol| {
+            matches!(symbol.kind, SymbolKind::Machine | SymbolKind::Choice | SymbolKind::Field | SymbolKind::Event)
+        };
         let mut order: Vec<usize> = (0..symbols.len()).filter(|&index| !is_unknown_alone(&symbols[index])).collect();
         order.sort_by_key(|&index| symbols[index].visible.start);
         let declared = symbols.iter().enumerate().map(|(index, symbol)| (symbol.span, index)).collect();
@@ -236,13 +262,10 @@ impl<'s> Names<'s> {
         self.of_kind(name, SymbolKind::State)
     }
 
-    /// The enumeration or the monitor with a name, as the type of an argument.
+    /// The enumeration, the record, the list or the monitor with a name, as the type of an argument.
     fn own_type(&self, name: &str) -> Option<usize> {
-        self.enumeration(name).or_else(|| self.of_kind(name, SymbolKind::Monitor))
-    }
-
-    fn enumeration(&self, name: &str) -> Option<usize> {
-        self.of_kind(name, SymbolKind::Enumeration)
+        let kinds = [SymbolKind::Enumeration, SymbolKind::Compound, SymbolKind::Monitor];
+        kinds.into_iter().find_map(|kind| self.of_kind(name, kind))
     }
 
     fn of_kind(&self, name: &str, kind: SymbolKind) -> Option<usize> {

@@ -21,6 +21,10 @@ pub enum SymbolKind {
     Enumeration,
     /// A value of an enumeration.
     Choice,
+    /// A record or a list.
+    Compound,
+    /// A field of a record.
+    Field,
     /// A derived value.
     Derived,
     /// A law.
@@ -46,7 +50,10 @@ pub enum SymbolKind {
 impl SymbolKind {
     /// True if the whole policy knows the name.
     pub(super) fn is_item(self) -> bool {
-        !matches!(self, Self::Argument | Self::Local | Self::Memory | Self::Choice | Self::Exit | Self::Event)
+        !matches!(
+            self,
+            Self::Argument | Self::Local | Self::Memory | Self::Choice | Self::Field | Self::Exit | Self::Event
+        )
     }
 
     /// True if the name means a value.
@@ -58,6 +65,8 @@ impl SymbolKind {
                 | Self::State
                 | Self::Enumeration
                 | Self::Choice
+                | Self::Compound
+                | Self::Field
                 | Self::Behaviour
                 | Self::Exit
                 | Self::Event
@@ -103,6 +112,8 @@ pub(super) enum Meaning {
     /// A built-in function, by its index in the table.
     Function(usize),
     Member(Type, Member),
+    /// A member of a list, by the symbol of its type and its index in the table.
+    ListMember(usize, usize),
     Type(Type),
     Unit(Dimension),
     /// A used file, by its part of the source.

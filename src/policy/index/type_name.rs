@@ -9,7 +9,9 @@ use super::declare::span_of;
 /// `angular_speed / length`.
 pub(super) fn type_name(tokens: &[Token<'_>], at: usize) -> Option<(TypeName, usize)> {
     let name = |at: usize| {
-        let token = tokens.get(at).filter(|token| matches!(token.kind, TokenKind::Name | TokenKind::Keyword))?;
+        let token = tokens
+            .get(at)
+            .filter(|token| matches!(token.kind, TokenKind::Name | TokenKind::Keyword | TokenKind::Unit))?;
         Some(Name { text: token.text.to_owned(), span: span_of(*token) })
     };
     let (base, mut last) = (name(at)?, at);

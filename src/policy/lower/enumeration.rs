@@ -57,9 +57,11 @@ impl<'f> Compiler<'f> {
     pub(super) fn named_type(&self, name: &TypeName) -> Option<Type> {
         let is_plain = name.of.is_none() && name.factors.is_empty();
         let own = || self.names().enumerations.get(name.base.text.as_str()).filter(|_| is_plain);
+        let compound = || self.names().compounds.get(name.base.text.as_str()).filter(|_| is_plain);
         let monitor = || self.names().monitors.get(name.base.text.as_str()).filter(|_| is_plain);
         Type::named(name)
             .or_else(|| own().map(|item| item.r#type()))
+            .or_else(|| Some(self.layouts.get(&compound()?.1.name.span)?.r#type()))
             .or_else(|| monitor().map(|(_, content)| Type::Monitor(content.name.span)))
     }
 
@@ -67,6 +69,7 @@ impl<'f> Compiler<'f> {
     pub(super) fn phrase(&self, r#type: Type) -> String {
         let name = match r#type {
             Type::Choice(choices) => self.enumerations.get(&choices.declared).map(|item| &item.name),
+            Type::Compound(of) => self.layouts.get(&of.declared).map(|layout| layout.name),
             Type::Monitor(content) => {
                 self.running.iter().map(|running| &running.content.name).find(|name| name.span == content)
             }

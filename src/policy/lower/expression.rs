@@ -40,7 +40,7 @@ impl<'f> Compiler<'f> {
                 let a = value.register;
                 let register = match value.r#type {
                     Type::Scalar(_) => self.code.scalar(|to| Op::Negate { to, a }),
-                    Type::Vector(_) => self.code.vector(|to| Op::NegateVector { to, a }),
+                    Type::Vector(_) | Type::Direction => self.code.vector(|to| Op::NegateVector { to, a }),
                     other => return self.mismatch(inner.span, other, "only a number or a vector can be negated"),
                 };
                 Some(Value { register, ..value })
@@ -75,8 +75,8 @@ impl<'f> Compiler<'f> {
     /// Lowers an expression that must have a type.
     pub(super) fn expect(&mut self, scope: &Scope<'f>, expression: &'f Expression, wanted: Type) -> Option<Value> {
         let value = self.expression(scope, expression)?;
-        if value.r#type == wanted {
-            return Some(value);
+        if value.r#type.fits(wanted) {
+            return Some(Value { r#type: wanted, ..value });
         }
         let found = self.phrase(value.r#type);
         let mut diagnostic = Diagnostic::error(
@@ -89,7 +89,23 @@ impl<'f> Compiler<'f> {
             (Type::Scalar(wanted), Type::Scalar(Dimension::NUMBER)) => {
                 diagnostic = diagnostic.hint(format!("give it a unit, such as {}", units_of(wanted).join(", ")));
             }
-            (Type::ANGLE, Type::Vector(_)) => diagnostic = diagnostic.hint("`angle(v)` is the direction of a vector"),
+            (Type::ANGLE, Type::Vector(_) | Type::Direction) => {
+                diagnostic = diagnostic.hint("`angle(v)` is the angle of a vector");
+            }
+            (Type::Direction, Type::Vector(_)) => {
+                diagnostic = diagnostic.hint("`unit(v)` is the direction of a vector");
+            }
+            (Type::Direction, Type::ANGLE) => {
+                diagnostic = diagnostic.hint("`direction(a)` is the direction with an angle");
+            }
+            (Type::Vector(_) | Type::Direction, Type::Position) => {
+                diagnostic =
+                    diagnostic.hint("the difference of two positions is a displacement, as in `w.tip - body.position`");
+            }
+            (Type::Position, Type::DISPLACEMENT) => {
+                diagnostic =
+                    diagnostic.hint("a position and a displacement add to a position, as in `body.position + v`");
+            }
             (Type::Scalar(_), Type::Vector(_)) => diagnostic = diagnostic.hint("`|v|` is the length of a vector"),
             (Type::Truth, Type::Scalar(_)) => {
                 diagnostic = diagnostic.hint("compare it with something, such as `x > 0`");
@@ -156,6 +172,11 @@ impl<'f> Compiler<'f> {
             return self.derived_value(scope, derived, values.unwrap_or_default(), span);
         }
         if known.is_none()
+            && let Some(compound) = self.names().compounds.get(name.text.as_str()).copied()
+        {
+            return self.compound_value(scope, compound, values, span);
+        }
+        if known.is_none()
             && let Some((function, usage)) = builtins::function(&name.text)
         {
             return self.function(scope, function, usage, values.unwrap_or_default(), span);
@@ -179,7 +200,7 @@ impl<'f> Compiler<'f> {
     }
 
     /// Reports parentheses after a name that takes no values.
-    fn report_call(&mut self, message: String, span: Span) {
+    pub(super) fn report_call(&mut self, message: String, span: Span) {
         let diagnostic = Diagnostic::error("P0304", message, span, "called like a function");
         self.report(diagnostic.hint("leave out the parentheses"));
     }
@@ -209,13 +230,17 @@ impl<'f> Compiler<'f> {
             }
             return self.monitor_member(value, name);
         }
+        if let Type::Compound(of) = value.r#type {
+            return self.compound_member(scope, value, of.declared, name, values);
+        }
         let members = builtins::members(value.r#type);
         let Some(&member) = members.iter().find(|member| member.name == name.text) else {
             let message = format!("{} has no `{}`", self.phrase(value.r#type), name.text);
             let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
             let mut diagnostic = did_you_mean(diagnostic, &name.text, members.iter().map(|member| member.name));
             if members.is_empty() {
-                diagnostic = diagnostic.hint("only whiskers, their contours, vectors and `body` have members");
+                diagnostic =
+                    diagnostic.hint("only whiskers, their contours, vectors, records, lists and `body` have members");
             } else {
                 let known: Vec<&str> = members.iter().map(|member| member.name).collect();
                 diagnostic = diagnostic.hint(format!("{} has {}", value.r#type, known.join(", ")));
@@ -223,7 +248,9 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic);
             return None;
         };
-        if let (MemberSource::Component(part), Type::Vector(dimension), None) = (member.source, value.r#type, values) {
+        if let (MemberSource::Component(part), Some(dimension), None) =
+            (member.source, value.r#type.components(), values)
+        {
             return Some(Value { r#type: Type::Scalar(dimension), register: value.register + part });
         }
         self.member_value(scope, value, member, name, values)
@@ -293,15 +320,15 @@ impl<'f> Compiler<'f> {
         let condition = self.expect(scope, condition, Type::Truth);
         let [first, second] = sides.map(|side| self.expression(scope, side));
         let (condition, first, second) = (condition?.register, first?, second?);
-        let r#type = first.r#type;
-        if r#type != second.r#type {
+        let r#type = if first.r#type.fits(second.r#type) { second.r#type } else { first.r#type };
+        if !second.r#type.fits(r#type) {
             let [one, other] = [r#type, second.r#type].map(|r#type| self.phrase(r#type));
             let message = format!("the sides of an `if` differ: {one} and {other}");
             let diagnostic = Diagnostic::error("P0301", message, sides[1].span, format!("is {other}"))
                 .note(sides[0].span, format!("is {one}"));
-            self.report(match binary_hint(Binary::Add, r#type, second.r#type) {
-                Some(hint) => diagnostic.hint(hint),
-                None => diagnostic.hint("both sides must have the same type"),
+            self.report(match (r#type, binary_hint(Binary::Add, r#type, second.r#type)) {
+                (Type::Scalar(_), Some(hint)) => diagnostic.hint(hint),
+                _ => diagnostic.hint("both sides must have the same type"),
             });
             return None;
         }
@@ -336,7 +363,7 @@ impl<'f> Compiler<'f> {
 
     fn norm(&mut self, scope: &Scope<'f>, inner: &'f Expression) -> Option<Value> {
         let Value { r#type, register: a } = self.expression(scope, inner)?;
-        match r#type {
+        match r#type.calculated() {
             Type::Vector(dimension) => {
                 // An unnamed difference is not used elsewhere, so its operation can be removed.
                 let difference = if let Kind::Binary { .. } = inner.kind { self.code.take_difference() } else { None };
@@ -347,7 +374,14 @@ impl<'f> Compiler<'f> {
                 Some(Value { r#type: Type::Scalar(dimension), register })
             }
             Type::Scalar(_) => Some(Value { r#type, register: self.code.scalar(|to| Op::Absolute { to, a }) }),
-            other => self.mismatch(inner.span, other, "only a number or a vector has a magnitude"),
+            other => {
+                let diagnostic = self.wrong_type(inner.span, other, "only a number or a vector has a magnitude");
+                self.report(match other {
+                    Type::Position => diagnostic.hint("`|a - b|` is the distance of two positions"),
+                    _ => diagnostic,
+                });
+                None
+            }
         }
     }
 
@@ -355,6 +389,7 @@ impl<'f> Compiler<'f> {
         let ((left, left_span), (right, right_span)) = (left, right);
         let (a, b) = (left.register, right.register);
         let truth = |register| Some(Value { r#type: Type::Truth, register });
+        let (left, right) = (left.calculated(), right.calculated());
         match (operator, left.r#type, right.r#type) {
             (Binary::Or, Type::Truth, Type::Truth) => truth(self.code.scalar(|to| Op::Or { to, a, b })),
             (Binary::And, Type::Truth, Type::Truth) => truth(self.code.scalar(|to| Op::And { to, a, b })),
@@ -381,6 +416,16 @@ impl<'f> Compiler<'f> {
             }
             (Binary::Add, Type::Vector(l), Type::Vector(r)) if l == r => {
                 Some(Value { register: self.code.vector(|to| Op::AddVectors { to, a, b }), ..left })
+            }
+            (Binary::Add, Type::Position, Type::DISPLACEMENT) | (Binary::Add, Type::DISPLACEMENT, Type::Position) => {
+                Some(Value { r#type: Type::Position, register: self.code.vector(|to| Op::AddVectors { to, a, b }) })
+            }
+            (Binary::Subtract, Type::Position, Type::DISPLACEMENT) => {
+                Some(Value { register: self.code.vector(|to| Op::SubtractVectors { to, a, b }), ..left })
+            }
+            (Binary::Subtract, Type::Position, Type::Position) => {
+                let register = self.code.vector(|to| Op::SubtractVectors { to, a, b });
+                Some(Value { r#type: Type::DISPLACEMENT, register })
             }
             (Binary::Subtract, Type::Scalar(l), Type::Scalar(r)) if l == r => {
                 Some(Value { register: self.code.scalar(|to| Op::Subtract { to, a, b }), ..left })
@@ -434,9 +479,14 @@ impl<'f> Compiler<'f> {
 
     /// Reports a value of the wrong type.
     pub(super) fn mismatch<T>(&mut self, span: Span, found: Type, rule: &str) -> Option<T> {
-        let label = format!("is {}", self.phrase(found));
-        self.report(Diagnostic::error("P0301", rule, span, label));
+        let diagnostic = self.wrong_type(span, found, rule);
+        self.report(diagnostic);
         None
+    }
+
+    /// The diagnostic of a value of the wrong type.
+    pub(super) fn wrong_type(&self, span: Span, found: Type, rule: &str) -> Diagnostic {
+        Diagnostic::error("P0301", rule, span, format!("is {}", self.phrase(found)))
     }
 }
 
@@ -447,6 +497,19 @@ fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
         (_, Type::Scalar(dimension), Type::Scalar(Dimension::NUMBER))
         | (_, Type::Scalar(Dimension::NUMBER), Type::Scalar(dimension)) => {
             Some(format!("give the plain number a unit, such as {}", units_of(dimension).join(", ")))
+        }
+        (Binary::Equal | Binary::Unequal, Type::Compound(_), Type::Compound(_)) => {
+            Some("compare their fields or elements".to_owned())
+        }
+        (Binary::Add, Type::Position, Type::Position) => Some(
+            "the middle of two positions is `blend(a, b, 0.5)`, and `a - b` is the displacement from `b` to `a`"
+                .to_owned(),
+        ),
+        (Binary::Add | Binary::Subtract, Type::Position, _) | (Binary::Add | Binary::Subtract, _, Type::Position) => {
+            Some("only a displacement can be added to a position, such as `30 mm * direction(body.yaw)`".to_owned())
+        }
+        (Binary::Multiply | Binary::Divide, Type::Position, _) | (Binary::Multiply, _, Type::Position) => {
+            Some("a position cannot be scaled; `a - b` is the displacement from `b` to `a`".to_owned())
         }
         (Binary::Multiply, Type::Vector(_), Type::Vector(_)) => Some("write `dot(a, b)` or `cross(a, b)`".to_owned()),
         (Binary::Less | Binary::LessOrEqual | Binary::Greater | Binary::GreaterOrEqual, Type::Truth, _) => {
@@ -459,9 +522,9 @@ fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
             | Binary::GreaterOrEqual
             | Binary::Equal
             | Binary::Unequal,
-            Type::Vector(_),
+            Type::Vector(_) | Type::Position,
             _,
-        ) => Some("compare lengths: `|v|`, or of two vectors `|a - b|`".to_owned()),
+        ) => Some("compare lengths: `|v|`, or of two vectors or positions `|a - b|`".to_owned()),
         _ => None,
     }
 }

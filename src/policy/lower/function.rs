@@ -23,11 +23,11 @@ impl<'f> Compiler<'f> {
     ) -> Option<Value> {
         let given: Vec<Option<Value>> = values.iter().map(|value| self.expression(scope, value)).collect();
         let given: Vec<Value> = given.into_iter().collect::<Option<_>>()?;
-        let types: Vec<Type> = given.iter().map(|value| value.r#type).collect();
+        let types: Vec<Type> = given.iter().map(|value| value.r#type.calculated()).collect();
         let register = |index: usize| given[index].register;
         let scalar = |dimension, register| Some(Value { r#type: Type::Scalar(dimension), register });
         let vector = |dimension, register| Some(Value { r#type: Type::Vector(dimension), register });
-        if let Some(value) = self.signal(function, &given) {
+        if let Some(value) = self.signal(function, &given).or_else(|| self.vector_function(function, &given)) {
             return Some(value);
         }
         match (function, types.as_slice()) {
@@ -66,21 +66,8 @@ impl<'f> Compiler<'f> {
             (Function::Asin | Function::Acos, &[Type::NUMBER]) => {
                 scalar(Dimension::ANGLE, self.arc(function, register(0)))
             }
-            (Function::Direction, &[Type::ANGLE]) => vector(Dimension::NUMBER, self.direction(register(0))),
-            (Function::Vector, &[Type::Scalar(x), Type::Scalar(y)]) if x == y => {
-                let to = self.code.allocate(2);
-                self.code.push(Op::Copy { to, a: register(0) });
-                self.code.push(Op::Copy { to: to + 1, a: register(1) });
-                vector(x, to)
-            }
-            (Function::Unit, [Type::Vector(_)]) => {
-                vector(Dimension::NUMBER, self.code.vector(|to| Op::Unit { to, a: register(0) }))
-            }
             (Function::Angle, [Type::Vector(_)]) => {
                 scalar(Dimension::ANGLE, self.code.scalar(|to| Op::Angle { to, a: register(0) }))
-            }
-            (Function::Rotate, &[Type::Vector(dimension), Type::ANGLE]) => {
-                vector(dimension, self.code.vector(|to| Op::Rotate { to, a: register(0), b: register(1) }))
             }
             (Function::Turn, &[Type::ANGLE, Type::ANGLE]) => {
                 let difference = self.code.scalar(|to| Op::Subtract { to, a: register(1), b: register(0) });
@@ -109,18 +96,50 @@ impl<'f> Compiler<'f> {
                 scalar(limit, self.code.scalar(|to| Op::Pid { to, a: register(0), gains, memory }))
             }
             _ => {
-                let found: Vec<String> = types.iter().map(|&r#type| self.phrase(r#type)).collect();
+                let found: Vec<String> = given.iter().map(|value| self.phrase(value.r#type)).collect();
                 let message = match found.as_slice() {
                     [] => format!("`{usage}` needs its values"),
                     _ => format!("`{usage}` does not take {}", found.join(", ")),
                 };
-                self.report(
-                    Diagnostic::error("P0304", message, span, "these values")
-                        .hint(format!("it takes {}", function.takes())),
-                );
+                let diagnostic = Diagnostic::error("P0304", message, span, "these values")
+                    .hint(format!("it takes {}", function.takes()));
+                self.report(if types.contains(&Type::Position) {
+                    diagnostic.hint("the difference of two positions is a vector, as in `w.tip - body.position`")
+                } else {
+                    diagnostic
+                });
                 None
             }
         }
+    }
+
+    /// Lowers a function whose result is a vector, a direction or a position. `None` for another one, and for values that it does
+    /// not take.
+    fn vector_function(&mut self, function: Function, given: &[Value]) -> Option<Value> {
+        let types: Vec<Type> = given.iter().map(|value| value.r#type.calculated()).collect();
+        let register = |index: usize| given.get(index).map_or(0, |value| value.register);
+        let (r#type, register) = match (function, types.as_slice()) {
+            (Function::Blend, &[Type::Position, Type::Position, Type::NUMBER]) => {
+                let [a, b, share] = [0, 1, 2].map(register);
+                (Type::Position, self.code.vector(|to| Op::Blend { to, a, b, share }))
+            }
+            (Function::Direction, &[Type::ANGLE]) => (Type::Direction, self.direction(register(0))),
+            (Function::Vector, &[Type::Scalar(x), Type::Scalar(y)]) if x == y => {
+                (Type::Vector(x), self.pair([register(0), register(1)]))
+            }
+            (Function::Position, &[Type::LENGTH, Type::LENGTH]) => {
+                (Type::Position, self.pair([register(0), register(1)]))
+            }
+            (Function::Unit, [Type::Vector(_)]) => {
+                (Type::Direction, self.code.vector(|to| Op::Unit { to, a: register(0) }))
+            }
+            (Function::Rotate, &[Type::Vector(_), Type::ANGLE]) => {
+                let rotated = self.code.vector(|to| Op::Rotate { to, a: register(0), b: register(1) });
+                (given[0].r#type, rotated)
+            }
+            _ => return None,
+        };
+        Some(Value { r#type, register })
     }
 
     /// New registers for the memory of a stateful function. The entry of the current state resets them.
@@ -128,6 +147,14 @@ impl<'f> Compiler<'f> {
         let memory = self.code.allocate(count);
         self.memories.push((memory, count));
         memory
+    }
+
+    /// The vector with two components.
+    fn pair(&mut self, [x, y]: [u16; 2]) -> u16 {
+        let to = self.code.allocate(2);
+        self.code.push(Op::Copy { to, a: x });
+        self.code.push(Op::Copy { to: to + 1, a: y });
+        to
     }
 
     /// The unit vector with the direction of an angle.

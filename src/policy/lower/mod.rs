@@ -5,6 +5,7 @@
 
 mod call;
 mod code;
+mod compound;
 mod contour;
 mod contract;
 mod enumeration;
@@ -36,8 +37,9 @@ use super::ast::{Argument, Enumeration, Expression, Name, Statement, TypeName};
 use super::load::Files;
 use super::suggestion::did_you_mean;
 use super::test::{FigureRegister, PolicyTest};
-use super::types::{DIMENSIONS, Type, Value, dimension};
+use super::types::{DIMENSIONS, PLAIN_TYPES, Type, Value, dimension};
 use code::Code;
+use compound::Layout;
 use hierarchy::Hierarchy;
 use monitor::Running;
 use names::Names;
@@ -95,18 +97,18 @@ pub(super) fn lower(files: &Files) -> Result<Lowered, Vec<Diagnostic>> {
     let mut compiler = Compiler::new();
     let program = structure::machine(&mut compiler, files);
     let choices = compiler.choices();
-    let mut states: Vec<StateEntry> = compiler.states.into_values().collect();
+    let mut states: Vec<StateEntry> = std::mem::take(&mut compiler.states).into_values().collect();
     states.sort_by_key(|state| state.index);
-    let tests = compiler.tests;
-    let diagnostics = in_order(compiler.diagnostics);
+    let (tests, diagnostics) =
+        (std::mem::take(&mut compiler.tests), in_order(std::mem::take(&mut compiler.diagnostics)));
     match program {
         Some(program) if diagnostics.is_empty() => {
             // A monitor that is an argument has no register.
             let has_register = |value: &Value| !matches!(value.r#type, Type::Monitor(_));
             let known = |(name, meaning): (String, Meaning)| Some((name, meaning.filter(has_register)?));
             let arguments = states.into_iter().map(|state| state.arguments.into_iter().filter_map(known).collect());
+            let arguments = arguments.map(|values| compiler.parts(values)).collect();
             let (memory, origins, logged) = (compiler.memory, compiler.code.origins, compiler.code.logged);
-            let arguments = arguments.collect();
             Ok(Lowered { program, tests, arguments, choices, memory, origins, logged, proved: Vec::new() })
         }
         _ => Err(diagnostics),
@@ -156,6 +158,8 @@ struct Compiler<'f> {
     files: Vec<Names<'f>>,
     /// The enumerations of all files, by the span of their names.
     enumerations: HashMap<Span, &'f Enumeration>,
+    /// The registers of the records and lists of all files, by the span of their names.
+    layouts: HashMap<Span, Layout<'f>>,
     /// The number of the current file.
     current_file: usize,
     /// The types of names, if they are requested.
@@ -209,6 +213,7 @@ impl<'f> Compiler<'f> {
             diagnostics: Vec::new(),
             files: Vec::new(),
             enumerations: HashMap::new(),
+            layouts: HashMap::new(),
             current_file: 0,
             types: None,
             states: HashMap::new(),
@@ -296,8 +301,9 @@ impl<'f> Compiler<'f> {
     fn type_of(&mut self, name: &TypeName) -> Option<Type> {
         let found = self.named_type(name);
         if found.is_none() {
-            let own: Vec<&str> =
-                self.names().enumerations.keys().chain(self.names().monitors.keys()).copied().collect();
+            let names = self.names();
+            let own = names.enumerations.keys().chain(names.compounds.keys()).chain(names.monitors.keys());
+            let own: Vec<&str> = own.copied().collect();
             let diagnostic = unknown_type(name, &own);
             self.report(diagnostic);
         }
@@ -305,7 +311,7 @@ impl<'f> Compiler<'f> {
     }
 }
 
-/// The diagnostic for an unknown type. `own` are the enumerations of the file.
+/// The diagnostic for an unknown type. `own` are the types of the file.
 fn unknown_type(name: &TypeName, own: &[&str]) -> Diagnostic {
     let dimensions = DIMENSIONS.iter().map(|&(known, _)| known);
     let list = dimensions.clone().collect::<Vec<_>>().join(", ");
@@ -320,9 +326,9 @@ fn unknown_type(name: &TypeName, own: &[&str]) -> Diagnostic {
         None if name.factors.is_empty() => {
             let message = format!("there is no type `{}`", name.base.text);
             let diagnostic = Diagnostic::error("P0204", message, name.base.span, "unknown type");
-            let known = dimensions.chain(["whisker", "contour", "truth", "vector"]).chain(own.iter().copied());
+            let known = dimensions.chain(PLAIN_TYPES).chain(own.iter().copied());
             in_the_standard_library(did_you_mean(diagnostic, &name.base.text, known), &name.base.text)
-                .hint(format!("types are whisker, contour, truth, {list}, vector, and `vector of` a dimension"))
+                .hint(format!("types are {}, `vector of` a dimension, {list}", PLAIN_TYPES.join(", ")))
         }
         _ => match std::iter::once(first)
             .chain(name.factors.iter().map(|(_, part)| part))

@@ -242,7 +242,7 @@ impl<'f> Compiler<'f> {
         let given = self.arguments(scope, file, &event.name, &event.arguments, values, span)?;
         let (mut inner, ..) = self.inside(usize::from(value.register))?;
         for argument in &event.arguments {
-            let value = given.get(&argument.name.text).flatten().map(|value| self.snapshot(scope, value));
+            let value = given.get(&argument.name.text).flatten().map(|value| self.untold(value));
             inner.insert(&argument.name, value);
         }
         // The event sets the memory of its monitor, also where a law tells it. There is no recursion: a monitor knows only

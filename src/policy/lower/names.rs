@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Derived, Enumeration, File, Law, Monitor, Name, Use};
+use crate::policy::ast::{Compound, Derived, Enumeration, File, Law, Monitor, Name, Use};
 use crate::policy::load::Files;
 use crate::policy::suggestion::did_you_mean;
 
@@ -25,6 +25,8 @@ pub(super) struct Names<'f> {
     pub(super) derived: HashMap<&'f str, (usize, &'f Derived)>,
     pub(super) laws: HashMap<&'f str, (usize, &'f Law)>,
     pub(super) enumerations: HashMap<&'f str, &'f Enumeration>,
+    /// Records and lists, each with the number of its file.
+    pub(super) compounds: HashMap<&'f str, (usize, &'f Compound)>,
     /// The names of behaviours.
     pub(super) behaviours: HashSet<&'f str>,
     /// The names of monitors that use others.
@@ -77,6 +79,7 @@ impl<'f> Compiler<'f> {
                 }
             }
         }
+        self.gather_compounds(files);
     }
 
     /// Collects the file's own items. Each name may be declared once per file.
@@ -85,6 +88,7 @@ impl<'f> Compiler<'f> {
         let derived = file.derived.iter().map(|derived| &derived.name);
         let laws = file.laws.iter().map(|law| &law.name);
         let enumerations = file.enumerations.iter().map(|item| &item.name);
+        let compounds = file.compounds.iter().map(|item| &item.name);
         let states = file.states.iter().map(|state| &state.name);
         let behaviours = file.behaviours.iter().map(|behaviour| &behaviour.name);
         let monitors = file.monitors.iter().map(|monitor| &monitor.name);
@@ -98,6 +102,7 @@ impl<'f> Compiler<'f> {
             .chain(derived)
             .chain(laws)
             .chain(enumerations)
+            .chain(compounds)
             .chain(states)
             .chain(behaviours)
             .chain(monitors)
@@ -121,6 +126,7 @@ impl<'f> Compiler<'f> {
         names.monitors = contents.map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.laws = file.laws.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
         names.enumerations = file.enumerations.iter().map(|item| (item.name.text.as_str(), item)).collect();
+        names.compounds = file.compounds.iter().map(|item| (item.name.text.as_str(), (number, item))).collect();
         for item in &file.enumerations {
             self.enumerations.insert(item.name.span, item);
             self.check_choices(item);
@@ -152,11 +158,13 @@ impl<'f> Compiler<'f> {
                     let derived = other.derived.iter().find(|item| item.name.span == name.span);
                     let law = other.laws.iter().find(|item| item.name.span == name.span);
                     let enumeration = other.enumerations.iter().find(|item| item.name.span == name.span);
+                    let compound = other.compounds.iter().find(|item| item.name.span == name.span);
                     let behaviour = other.behaviours.iter().find(|item| item.name.span == name.span);
                     let monitor = other.monitors.iter().find(|item| item.name.span == name.span);
                     let names = self.names_mut();
                     names.items.insert(text, name.span);
                     names.enumerations.extend(enumeration.map(|item| (text, item)));
+                    names.compounds.extend(compound.map(|item| (text, (number, item))));
                     names.derived.extend(derived.map(|item| (text, (number, item))));
                     names.laws.extend(law.map(|item| (text, (number, item))));
                     names.behaviours.extend(behaviour.map(|item| item.name.text.as_str()));

@@ -78,6 +78,7 @@ impl<'f> Compiler<'f> {
             self.report(Diagnostic::error("P0417", message, at, "exceeds the limit").hint(hint));
             return None;
         }
+        let text = self.plain_text(text, "a message")?;
         let copies = shown.into_iter().map(|(value, kind)| MessageValue {
             // Names are added later, from the source.
             name: Arc::from(""),
@@ -87,12 +88,7 @@ impl<'f> Compiler<'f> {
         let values_shown: Vec<MessageValue> = copies.collect();
         let number = self.code.allocate(1);
         self.count(number);
-        self.code.outputs.messages.push(Message {
-            state: self.current_state,
-            text: Arc::from(printable(&text.text)),
-            values: values_shown,
-            number,
-        });
+        self.code.outputs.messages.push(Message { state: self.current_state, text, values: values_shown, number });
         self.code.logged.push(values.iter().map(|value| value.span).collect());
         Some(())
     }
@@ -124,17 +120,12 @@ impl<'f> Compiler<'f> {
         Some(match of {
             Type::Truth => OutputKind::Truth,
             Type::Scalar(dimension) => OutputKind::Number(dimension),
-            Type::Vector(dimension) => OutputKind::Vector(dimension),
+            r#type if let Some(dimension) = r#type.components() => OutputKind::Vector(dimension),
             Type::Whisker => OutputKind::Whisker,
             Type::Choice(choices) => {
                 OutputKind::Choice(self.enumerations.get(&choices.declared).copied().map(Enumeration::names)?)
             }
-            Type::Contour | Type::Body | Type::Run | Type::Monitor(_) => return None,
+            _ => return None,
         })
     }
-}
-
-/// A text without control characters.
-fn printable(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }

@@ -140,7 +140,7 @@ impl<'f> Compiler<'f> {
         } else {
             let known = scope.names.iter().map(|(known, _)| known.text.as_str());
             let known = known.chain(self.names().globals.keys().copied()).chain(self.names().derived.keys().copied());
-            let known = known.chain(self.names().enumerations.keys().copied());
+            let known = known.chain(self.names().enumerations.keys().chain(self.names().compounds.keys()).copied());
             let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time", "state_time"]);
             let diagnostic = in_the_standard_library(did_you_mean(diagnostic, text, known), text);
             let is_whisker =

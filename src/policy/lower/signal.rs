@@ -15,7 +15,9 @@ impl Compiler<'_> {
     /// Lowers a function with a memory of a signal. `None` for another function, and for values that it does not take.
     pub(super) fn signal(&mut self, function: Function, given: &[Value]) -> Option<Value> {
         let (r#type, register) = match (function, given) {
-            (Function::Previous, &[signal @ Value { r#type: Type::Scalar(_) | Type::Vector(_), .. }]) => {
+            (Function::Previous, &[signal])
+                if matches!(signal.r#type, Type::Scalar(_)) || signal.r#type.components().is_some() =>
+            {
                 return Some(self.previous(signal));
             }
             (Function::Peak, &[Value { r#type: r#type @ Type::Scalar(_), register }]) => (r#type, self.peak(register)),
@@ -25,7 +27,7 @@ impl Compiler<'_> {
             {
                 (Type::Truth, self.settled([signal, within, lasting].map(|value| value.register)))
             }
-            (Function::PathLength, &[Value { r#type: Type::POSITION, register }]) => {
+            (Function::PathLength, &[Value { r#type: Type::Position, register }]) => {
                 (Type::LENGTH, self.path_length(register))
             }
             _ => return None,

@@ -52,7 +52,7 @@ impl<'f> Compiler<'f> {
 
     fn record_position(&mut self, scope: &Scope<'f>, position: &'f Expression, contour: &Name) -> Option<()> {
         self.allow_record(position.span)?;
-        let position = self.expect(scope, position, Type::POSITION);
+        let position = self.expect(scope, position, Type::Position);
         let Some(&contour) = self.names().contours.get(contour.text.as_str()) else {
             let message = format!("there is no contour `{}`", contour.text);
             let diagnostic = Diagnostic::error("P0201", message, contour.span, "unknown contour");
@@ -80,13 +80,13 @@ impl<'f> Compiler<'f> {
     }
 
     /// A value that later statements cannot change: a copy if it is memory, otherwise the value itself.
-    pub(super) fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
+    fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
         let mut own = self.variables.iter().filter_map(|name| scope.get(&name.text).flatten());
         if own.any(|memory| value.is_part_of(memory)) { self.copied(value) } else { self.untold(value) }
     }
 
     /// A value that no event can change: a copy if it is memory of a monitor, otherwise the value itself.
-    fn untold(&mut self, value: Value) -> Value {
+    pub(super) fn untold(&mut self, value: Value) -> Value {
         let mut memories = self.running.iter().flat_map(|running| &running.memory).filter_map(|(_, memory)| *memory);
         if memories.any(|memory| value.is_part_of(memory)) { self.copied(value) } else { value }
     }
@@ -214,8 +214,17 @@ impl<'f> Compiler<'f> {
             Some(whisker) => self.expect(scope, whisker, Type::Whisker).map(|value| Some(value.register)),
         };
         let along = self.expression(scope, &steer.along).and_then(|value| match value.r#type {
-            Type::Vector(_) => Some(value.register),
-            other => self.mismatch(steer.along.span, other, "the direction of a motion must be a vector"),
+            Type::Vector(_) | Type::Direction => Some(value.register),
+            other => {
+                let rule = "the direction of a motion must be a vector";
+                let diagnostic = self.wrong_type(steer.along.span, other, rule);
+                self.report(match other {
+                    Type::Position => diagnostic.hint("the displacement to a position is `position - body.position`"),
+                    Type::ANGLE => diagnostic.hint("`direction(angle)` is the direction with an angle"),
+                    _ => diagnostic,
+                });
+                None
+            }
         });
         let speed = self.expect(scope, &steer.speed, Type::SPEED);
         let turn = match &steer.turn {

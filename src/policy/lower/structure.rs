@@ -72,7 +72,7 @@ pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Opti
     let body = compiler.own_body(&scope, file);
     // The registers of all arguments must exist before any transition is lowered.
     compiler.declare(&files.machine, &scope);
-    compiler.memory.machine = scope.values_since(0);
+    compiler.memory.machine = compiler.parts(scope.values_since(0));
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
     let fallback = compiler.failsafe(&scope, None, &file.failsafes);
@@ -254,7 +254,7 @@ impl<'f> Compiler<'f> {
             };
             let outer = scope.len();
             self.within(self.hierarchy.file(index), |compiler| compiler.declare_state(index, state, &mut scope));
-            self.memory.states.push(scope.values_since(outer));
+            self.memory.states.push(self.parts(scope.values_since(outer)));
             self.scopes.push(scope);
         }
     }

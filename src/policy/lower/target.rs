@@ -19,6 +19,19 @@ use super::{Compiler, StateEntry};
 type ArgumentValues<'f> = (Vec<Given<'f>>, Vec<(String, Meaning)>);
 
 impl<'f> Compiler<'f> {
+    /// The text of `what`, without control characters.
+    pub(super) fn plain_text(&mut self, text: &Name, what: &str) -> Option<Arc<str>> {
+        if let Some((at, letter)) = text.text.char_indices().find(|(_, letter)| letter.is_control()) {
+            let at = text.span.start + at;
+            let span = Span::new(at, at + letter.len_utf8());
+            let message = format!("{what} must be one line of plain text");
+            let diagnostic = Diagnostic::error("P0413", message, span, format!("{letter:?} cannot be shown"));
+            self.report(diagnostic.hint("write a space instead, or leave it out"));
+            return None;
+        }
+        Some(Arc::from(text.text.as_str()))
+    }
+
     /// Lowers the target of a transition of the state `from`, or of a global one.
     pub(super) fn target(
         &mut self,
@@ -52,15 +65,7 @@ impl<'f> Compiler<'f> {
                 self.report(diagnostic.hint(format!("write `{name}(\"{example}\")`")));
                 return None;
             };
-            if let Some((at, letter)) = reason.text.char_indices().find(|(_, letter)| letter.is_control()) {
-                let at = reason.span.start + at;
-                let span = Span::new(at, at + letter.len_utf8());
-                let message = "a reason must be one line of plain text";
-                let diagnostic = Diagnostic::error("P0413", message, span, format!("{letter:?} cannot be shown"));
-                self.report(diagnostic.hint("write a space instead, or leave it out"));
-                return None;
-            }
-            let reason = Arc::from(reason.text.as_str());
+            let reason = self.plain_text(reason, "a reason")?;
             return Some(if name == SUCCESS {
                 machine::Target::Success(reason)
             } else {

@@ -14,7 +14,7 @@ monitor felt(w: whisker) {
 }
 monitor right is felt(r0)
 behaviour follow(w: whisker) {
-  exit edge(spot: vector of length)
+  exit edge(spot: position)
   exit lost
   initial Swiping
   state Swiping {
@@ -31,7 +31,7 @@ state Following(w: whisker) is follow(w) {
   on edge(place_of_it) -> Going(place_of_it)
   on lost -> Creeping
 }
-state Going(to: vector of length) {
+state Going(to: position) {
   stop
   when |to - right.place| < 1 mm -> Creeping
   after 1 s -> Failure(\"far\")
@@ -99,5 +99,5 @@ fn the_head_of_a_state_names_its_behaviour() {
     assert!(hover("Following(w: ").contains("state Following(w: whisker) is follow(w)"));
     assert!(hover("follow(w: ").contains("behaviour follow(w: whisker)"));
     assert!(hover("right is").contains("monitor right is felt(r0)"));
-    assert!(hover("place_of_it) ->").contains("a vector in m"));
+    assert!(hover("place_of_it) ->").contains("a position"));
 }

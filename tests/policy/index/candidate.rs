@@ -271,3 +271,23 @@ fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
     // What the used file uses itself is not known.
     assert!(!has(&using("let x = \u{a7}\n"), "bent"));
 }
+
+#[test]
+fn records_and_lists_offer_their_parts_and_are_types_and_values() {
+    let with = |inside: &str| {
+        let text = format!(
+            "machine m\nwhisker w\ntype Spot(place: position, heading: angle)\ntype Spots = list of 4 Spot\ninitial S\n\
+             var spot = Spot(w.tip, body.yaw)\nvar spots = Spots()\nstate S {{\n  {inside}\n}}\n"
+        );
+        labels(&text)
+    };
+    assert_eq!(with("set spot = Spot(spot.\u{a7}"), ["place", "heading"]);
+    assert_eq!(with("let a = spots.\u{a7}"), ["count", "newest", "oldest", "element", "nearest", "with"]);
+    assert_eq!(with("let a = spots.newest.\u{a7}"), ["place", "heading"]);
+    assert_eq!(with("let a = spots.element(1).place.\u{a7}"), ["x", "y"]);
+    assert!(with("let a = \u{a7}").contains(&"Spot".to_owned()));
+    let types = labels("machine m\ntype Spot(place: position)\nlaw l(a: \u{a7}");
+    assert!(["Spot", "position", "direction"].iter().all(|name| types.contains(&(*name).to_owned())), "{types:?}");
+    assert_eq!(labels("machine m\ntype Spots = \u{a7}"), ["list"]);
+    assert!(labels("machine m\ntype Spots = list of 4 \u{a7}").contains(&"position".to_owned()));
+}

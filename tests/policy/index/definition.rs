@@ -36,8 +36,8 @@ fn a_text_with_a_fault_is_known_but_for_the_fault() {
     let pull = broken.find("pull) at speed").unwrap();
     assert!(index(&broken).hover(pull).unwrap().text.contains("a plain number"));
     let tangent = broken.find("tangent, unit(miss)").unwrap();
-    assert!(before.hover(tangent).unwrap().text.contains("a vector of plain numbers"));
-    assert!(!index(&broken).hover(tangent).unwrap().text.contains("a vector of plain numbers"));
+    assert!(before.hover(tangent).unwrap().text.contains("a direction"));
+    assert!(!index(&broken).hover(tangent).unwrap().text.contains("a direction"));
     assert_eq!(before.rename(at, "other"), Err(RenameError::Unreadable));
     // A fault of meaning hides no place of a name.
     let wrong = SWIPE.replace("0 deg)", "0 mm)");

@@ -180,7 +180,7 @@ fn the_bound_of_a_tick_counts_monitors_once() {
 const WATCHER: &str = "monitor watcher_of_all {
     var seen_by_it = w0.deflection  var count_of_it = 0  var where_it_was = body.position
     if w0.touching { set count_of_it = count_of_it + lowpass(1, 2 Hz) }
-    set seen_by_it = w0.deflection - seen_by_it  set where_it_was = w0.tip + where_it_was
+    set seen_by_it = w0.deflection - seen_by_it  set where_it_was = blend(w0.tip, where_it_was, 0.5)
 }";
 
 proptest! {

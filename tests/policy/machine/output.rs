@@ -24,7 +24,7 @@ fn shown(text: &str, marks: &str) -> Vec<Vec<String>> {
         let messages = machine.logged().map(|logged| {
             let message = &outputs.messages[logged.message];
             let state = message.state.map_or("", |state| &program.states[state].name);
-            format!("{state}: {}", message.line(&logged.numbers, &program.whiskers))
+            format!("{state}: {}", message.shown(&logged.numbers, &program.whiskers))
         });
         shown.push(plots.chain(messages).collect());
     }

@@ -399,7 +399,7 @@ proptest! {
 fn laws_take_contours_and_quantities_of_any_dimension() {
     let text = "machine m whisker v, w initial S
         law follow(c: contour, gain: angular_speed / length, drift: vector of length / time) {
-          steer body along c.point(5 mm) + 1 s * drift at dot(c.tangent(2 mm), drift) turning gain * |c.normal(3 mm)| * 1 m
+          steer body along c.point(5 mm) - position(0 m, 0 m) + 1 s * drift at dot(c.tangent(2 mm), drift) turning gain * |c.normal(3 mm)| * 1 m
         }
         let middle(a: contour, b: contour) = a.normal + b.normal
         state S { do follow(w.contour, 2 deg/s / 1 m * 1, |middle(v.contour, w.contour)| * vector(0 m/s, 1 m/s)) }";
@@ -416,7 +416,7 @@ fn laws_take_contours_and_quantities_of_any_dimension() {
 #[test]
 fn a_state_can_be_entered_with_a_contour() {
     let text = "machine m whisker v, w initial S state S { stop when true -> T(w.contour) }
-        state T(c: contour) { steer body along c.point(1 mm) at 1 m/s turning 0 deg/s }";
+        state T(c: contour) { steer body along c.point(1 mm) - position(0 m, 0 m) at 1 m/s turning 0 deg/s }";
     let (_, ticks) = run(text, &mut Script::touches("x"));
     let Action::Steer { along_world, .. } = ticks[0].1 else { panic!("{ticks:?}") };
     assert!((along_world.x - 1.0).abs() < 1e-12, "the whisker with the index 1");

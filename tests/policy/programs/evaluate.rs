@@ -8,7 +8,7 @@ use vibrissa_runtime::math;
 
 use super::interpreter::Interpreter;
 use super::text::plot_name;
-use super::tree::{Arguments, Derived, Expression, Law, Monitor, Statement, Steer};
+use super::tree::{Arguments, Derived, Expression, LIST_LENGTH, Law, Monitor, Statement, Steer};
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Value {
@@ -19,6 +19,9 @@ pub(crate) enum Value {
     Whisker(usize),
     /// The number of a value of the enumeration.
     Choice(usize),
+    Record(f64, Vector2, bool),
+    /// The positions, from the newest on. Those behind the count are not known.
+    List(usize, [Vector2; LIST_LENGTH]),
 }
 
 impl Value {
@@ -41,6 +44,7 @@ impl Value {
             Self::Truth(truth) => numbers_text(&[f64::from(u8::from(truth))]),
             Self::Vector(vector) => numbers_text(&[vector.x, vector.y]),
             Self::Whisker(index) | Self::Choice(index) => numbers_text(&[index as f64]),
+            Self::Record(..) | Self::List(..) => panic!("{self:?} is not shown"),
         }
     }
 
@@ -140,8 +144,13 @@ impl Interpreter<'_> {
                 Value::Number(if *part == "x" { vector.x } else { vector.y })
             }
             Expression::Member(owner, member, values) => {
-                let whisker = self.value(owner, place).whisker();
+                let owner = self.value(owner, place);
                 let values = self.values(values, place);
+                if let Some(value) = part(owner, member, &values) {
+                    self.seen("a member of a record or a list", Some(place.part));
+                    return value;
+                }
+                let whisker = owner.whisker();
                 self.seen("a closed loop", (*member == "loop_closed").then_some(place.part));
                 self.member(whisker, member, &values.iter().map(|value| value.number()).collect::<Vec<_>>())
             }
@@ -265,7 +274,9 @@ impl Interpreter<'_> {
             "dot" => values[0].vector().dot(&values[1].vector()),
             "cross" => values[0].vector().perp(&values[1].vector()),
             "direction" => return Value::Vector(Vector2::new(math::cos(number(0)), math::sin(number(0)))),
-            "vector" => return Value::Vector(Vector2::new(number(0), number(1))),
+            "R" => return Value::Record(number(0), values[1].vector(), values[2].truth()),
+            "L" => return Value::List(0, [Vector2::new(f64::NAN, f64::NAN); LIST_LENGTH]),
+            "vector" | "position" => return Value::Vector(Vector2::new(number(0), number(1))),
             "rotate" => return Value::Vector(rotate(values[0].vector(), number(1))),
             "unit" => {
                 let (vector, length) = (values[0].vector(), values[0].vector().norm());
@@ -400,6 +411,36 @@ fn inside(place: &Place, site: usize, arguments: &Arguments, values: Vec<Value>,
     let uses = place.uses.iter().copied().chain([site]).collect();
     let locals = arguments.iter().map(|(name, _)| name.clone()).zip(values).collect();
     Place { uses, locals, stands_in: place.stands_in, ..Place::new(None, part) }
+}
+
+/// A member of a record or a list. `None` for another value.
+fn part(owner: Value, member: &str, values: &[Value]) -> Option<Value> {
+    Some(match (owner, member) {
+        (Value::Record(number, ..), "n") => Value::Number(number),
+        (Value::Record(_, position, _), "p") => Value::Vector(position),
+        (Value::Record(.., truth), _) => Value::Truth(truth),
+        (Value::List(count, _), "count") => Value::Number(count as f64),
+        (Value::List(count, mut positions), "with") => {
+            positions.rotate_right(1);
+            positions[0] = values[0].vector();
+            Value::List(LIST_LENGTH.min(count + 1), positions)
+        }
+        (Value::List(count, positions), "nearest") => {
+            let distance = |position: &Vector2| (position - values[0].vector()).norm();
+            let nearer = |best: Vector2, next: &Vector2| if distance(next) < distance(&best) { *next } else { best };
+            Value::Vector(positions[..count].iter().fold(positions[0], nearer))
+        }
+        (Value::List(count, positions), _) => {
+            let index = match member {
+                "newest" => Some(0),
+                "oldest" => count.checked_sub(1),
+                _ => (0..LIST_LENGTH).find(|&index| (values[0].number() - index as f64).abs() < 1e-9),
+            };
+            let unknown = Vector2::new(f64::NAN, f64::NAN);
+            Value::Vector(index.filter(|&index| index < count).map_or(unknown, |index| positions[index]))
+        }
+        _ => return None,
+    })
 }
 
 fn binary(sign: &str, left: Value, right: Value) -> Value {

@@ -127,7 +127,7 @@ impl Grower<'_> {
         let mut body = Vec::new();
         for _ in 0..self.pick(4) {
             let (name, r#type, _) = self.one_of(memory);
-            let set = if r#type != Type::Contour && self.pick(6) == 0 {
+            let set = if ![Type::Contour, Type::Record, Type::List].contains(&r#type) && self.pick(6) == 0 {
                 Statement::Log(self.site(), vec![self.expression(r#type, 1)])
             } else {
                 Statement::Set(name, self.expression(r#type, 2))
@@ -370,8 +370,17 @@ impl Grower<'_> {
                 Statement::Plot(of, self.expression(of, 2))
             }
             22 => {
-                let types =
-                    [Type::Number, Type::Time, Type::Truth, Type::Vector, Type::Place, Type::Whisker, Type::Choice];
+                let types = [
+                    Type::Number,
+                    Type::Time,
+                    Type::Truth,
+                    Type::Vector,
+                    Type::Direction,
+                    Type::Shift,
+                    Type::Place,
+                    Type::Whisker,
+                    Type::Choice,
+                ];
                 let values = (0..self.pick(4)).map(|_| {
                     let of = self.one_of(&types);
                     self.expression(of, 2)
@@ -385,7 +394,7 @@ impl Grower<'_> {
 
     fn steer(&mut self) -> Statement {
         let whisker = (self.pick(2) == 1).then(|| self.expression(Type::Whisker, 1));
-        let along = self.one_of(&[Type::Vector, Type::Place]);
+        let along = self.one_of(&[Type::Vector, Type::Direction, Type::Shift]);
         let (along, speed) = (self.expression(along, 2), self.expression(Type::Speed, 3));
         let facing = self.pick(2) == 1;
         let turn = self.expression(if facing { Type::Angle } else { Type::Rate }, 3);

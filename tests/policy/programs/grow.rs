@@ -121,12 +121,14 @@ impl<'g> Grower<'g> {
         // From one of them on, values have names or are left out.
         let first = self.pick(2 * arguments.len() + 1);
         let value = |(index, (name, r#type)): (usize, &(String, Type))| {
+            // A direction is a vector.
+            let given = if *r#type == Type::Vector && self.pick(2) == 1 { Type::Direction } else { *r#type };
             if index < first {
-                return self.expression(*r#type, depth);
+                return self.expression(given, depth);
             }
             match default(name, *r#type) {
                 Some(default) if self.pick(3) > 0 => Expression::Omitted(Box::new(default)),
-                _ => Expression::Named(name.clone(), Box::new(self.expression(*r#type, depth))),
+                _ => Expression::Named(name.clone(), Box::new(self.expression(given, depth))),
             }
         };
         arguments.iter().enumerate().map(value).collect()
@@ -163,7 +165,17 @@ impl<'g> Grower<'g> {
             Type::Whisker => Expression::Name(format!("w{}", self.pick(self.program.whiskers))),
             Type::Contour => member(self.simple(Type::Whisker), "contour"),
             Type::Choice => Expression::Choice(self.pick(3)),
-            Type::Vector => member(self.simple(Type::Contour), "tangent"),
+            Type::Record => {
+                let values = [Type::Number, Type::Place, Type::Truth].map(|r#type| self.simple(r#type));
+                self.call("R", values.into())
+            }
+            Type::List => self.call("L", Vec::new()),
+            Type::Vector => {
+                let parts = vec![self.quantity(Type::Number), self.quantity(Type::Number)];
+                self.call("vector", parts)
+            }
+            Type::Direction => member(self.simple(Type::Contour), "tangent"),
+            Type::Shift => member(self.simple(Type::Whisker), "tip_base"),
             Type::Place => Expression::Body("position"),
             _ => self.quantity(r#type),
         }
@@ -189,12 +201,19 @@ impl<'g> Grower<'g> {
             Type::Truth if self.pick(3) == 0 => Expression::Body("blocked"),
             Type::Speed => Expression::Body("shortfall"),
             Type::Truth => self.of_whisker(&["touching"]),
-            Type::Vector => member(self.expression(Type::Contour, 0), self.one_of(&["tangent", "normal"])),
+            Type::Direction => member(self.expression(Type::Contour, 0), self.one_of(&["tangent", "normal"])),
             Type::Place if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "end"),
             Type::Place if self.pick(3) == 0 => Expression::Body(self.one_of(&["nose", "tail"])),
-            Type::Place => self.of_whisker(&["tip", "tip_base", "base"]),
+            Type::Place => self.of_whisker(&["tip", "base"]),
             Type::Contour => self.of_whisker(&["contour"]),
-            Type::Whisker | Type::Rate | Type::Frequency | Type::Choice => self.simple(r#type),
+            Type::Vector
+            | Type::Shift
+            | Type::Whisker
+            | Type::Rate
+            | Type::Frequency
+            | Type::Choice
+            | Type::Record
+            | Type::List => self.simple(r#type),
         }
     }
 
@@ -205,7 +224,11 @@ impl<'g> Grower<'g> {
         }
         match r#type {
             Type::Truth => self.truth(depth),
-            Type::Vector | Type::Place => self.vector(r#type, depth),
+            Type::Vector | Type::Shift => self.vector(r#type, depth),
+            Type::Direction => self.direction(depth),
+            Type::Place => self.place(depth),
+            Type::Record => self.function("R", &[Type::Number, Type::Place, Type::Truth], depth),
+            Type::List => self.at(Type::List, &["with"], Type::Place, depth),
             Type::Whisker | Type::Contour | Type::Choice => self.sensed(r#type),
             _ if self.pick(2) == 0 => self.scalar(r#type, depth),
             _ => self.special(r#type, depth),
@@ -274,19 +297,34 @@ impl<'g> Grower<'g> {
             }
             (Type::Number, 4) => {
                 let name = self.one_of(&["dot", "cross"]);
-                self.function(name, &[Type::Vector; 2], depth)
+                let types = [(); 2].map(|()| self.one_of(&[Type::Vector, Type::Direction]));
+                self.function(name, &types, depth)
             }
-            (Type::Number, 5) if self.pick(2) == 0 => self.component(Type::Vector, depth),
-            (Type::Number, 5) => Expression::Norm(Box::new(self.expression(Type::Vector, depth))),
+            (Type::Number, 5) => {
+                let of = self.one_of(&[Type::Vector, Type::Direction]);
+                if self.pick(2) == 0 {
+                    self.component(of, depth)
+                } else {
+                    Expression::Norm(Box::new(self.expression(of, depth)))
+                }
+            }
+            (Type::Number, 6) if self.pick(2) == 0 => member(self.expression(Type::Record, depth), "n"),
+            (Type::Number, 6) => member(self.expression(Type::List, depth), "count"),
             (Type::Number, _) => self.pid([Type::Number, Type::Number], "", "Hz", "s", depth),
-            (Type::Length, 0..=3) => Expression::Norm(Box::new(self.expression(Type::Place, depth))),
-            (Type::Length, 4) => self.component(Type::Place, depth),
+            (Type::Length, 0..=3) => Expression::Norm(Box::new(self.expression(Type::Shift, depth))),
+            (Type::Length, 4) => {
+                let of = self.one_of(&[Type::Place, Type::Shift]);
+                self.component(of, depth)
+            }
             (Type::Length, 5) => {
                 let value = self.filtered(Type::Place, depth);
                 self.call("path_length", vec![value])
             }
             (Type::Length, _) => self.binary("*", Type::Speed, Type::Time, depth),
-            (Type::Angle, 0..=1) => self.function("angle", &[Type::Vector], depth),
+            (Type::Angle, 0..=1) => {
+                let of = self.one_of(&[Type::Vector, Type::Direction, Type::Shift]);
+                self.function("angle", &[of], depth)
+            }
             (Type::Angle, 2..=3) => self.function("turn", &[Type::Angle; 2], depth),
             (Type::Angle, 4..=5) => self.function("wrap", &[Type::Angle], depth),
             (Type::Angle, _) => self.binary("*", Type::Rate, Type::Time, depth),
@@ -311,12 +349,9 @@ impl<'g> Grower<'g> {
     }
 
     fn vector(&mut self, r#type: Type, depth: u8) -> Expression {
-        let is_place = r#type == Type::Place;
+        let is_shift = r#type == Type::Shift;
         match self.pick(12) {
-            11 => {
-                let value = self.filtered(r#type, depth);
-                self.call("previous", vec![value])
-            }
+            11 => self.before(r#type, depth),
             0 => self.binary("+", r#type, r#type, depth),
             1 => self.binary("-", r#type, r#type, depth),
             2 => self.binary("*", Type::Number, r#type, depth),
@@ -324,17 +359,54 @@ impl<'g> Grower<'g> {
             4 => self.binary("/", r#type, Type::Number, depth),
             5 => Expression::Negate(Box::new(self.expression(r#type, depth))),
             6 => self.function("rotate", &[r#type, Type::Angle], depth),
-            7 => self.function("vector", &[if is_place { Type::Length } else { Type::Number }; 2], depth),
-            8 if is_place => self.binary("*", Type::Vector, Type::Length, depth),
-            9 if is_place => self.at(Type::Whisker, &["tip_at"], Type::Angle, depth),
-            _ if is_place => self.at(Type::Contour, &["point"], Type::Length, depth),
-            8 => self.function("direction", &[Type::Angle], depth),
-            9 => {
-                let of = self.one_of(&[Type::Vector, Type::Place]);
+            7 => self.function("vector", &[if is_shift { Type::Length } else { Type::Number }; 2], depth),
+            8 if is_shift => self.binary("*", Type::Vector, Type::Length, depth),
+            9 if is_shift => self.at(Type::Whisker, &["tip_at"], Type::Angle, depth),
+            _ if is_shift => self.binary("-", Type::Place, Type::Place, depth),
+            8 => self.binary("+", Type::Direction, Type::Direction, depth),
+            9 => self.binary("-", Type::Direction, Type::Vector, depth),
+            _ => self.binary("*", Type::Direction, Type::Number, depth),
+        }
+    }
+
+    fn direction(&mut self, depth: u8) -> Expression {
+        match self.pick(6) {
+            0 => self.before(Type::Direction, depth),
+            1 => Expression::Negate(Box::new(self.expression(Type::Direction, depth))),
+            2 => self.function("rotate", &[Type::Direction, Type::Angle], depth),
+            3 => self.function("direction", &[Type::Angle], depth),
+            4 => {
+                let of = self.one_of(&[Type::Vector, Type::Shift, Type::Direction]);
                 self.function("unit", &[of], depth)
             }
             _ => self.at(Type::Contour, &["tangent", "normal"], Type::Length, depth),
         }
+    }
+
+    fn place(&mut self, depth: u8) -> Expression {
+        match self.pick(10) {
+            6 => member(self.expression(Type::Record, depth), "p"),
+            7 => {
+                let name = self.one_of(&["newest", "oldest"]);
+                member(self.expression(Type::List, depth), name)
+            }
+            8 => self.at(Type::List, &["nearest"], Type::Place, depth),
+            9 => {
+                let index = Expression::Quantity(self.one_of(&["0", "1", "2", "3"]), "");
+                Expression::Member(Box::new(self.expression(Type::List, depth)), "element", vec![index])
+            }
+            0 => self.before(Type::Place, depth),
+            1 => self.binary("+", Type::Place, Type::Shift, depth),
+            2 => self.binary("+", Type::Shift, Type::Place, depth),
+            3 => self.binary("-", Type::Place, Type::Shift, depth),
+            4 => self.function("position", &[Type::Length; 2], depth),
+            _ => self.at(Type::Contour, &["point"], Type::Length, depth),
+        }
+    }
+
+    fn before(&mut self, r#type: Type, depth: u8) -> Expression {
+        let value = self.filtered(r#type, depth);
+        self.call("previous", vec![value])
     }
 
     fn component(&mut self, of: Type, depth: u8) -> Expression {
@@ -353,7 +425,8 @@ impl<'g> Grower<'g> {
     }
 
     fn truth(&mut self, depth: u8) -> Expression {
-        match self.pick(10) {
+        match self.pick(11) {
+            10 => member(self.expression(Type::Record, depth), "b"),
             9 => {
                 let scalar = self.one_of(&SCALARS);
                 let within = self.expression(scalar, 0);

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::tree::{
-    Arguments, Contract, Derived, Expression, Guard, Law, Monitor, Program, Rule, Statement, Steer, Target, Type,
-    default,
+    Arguments, Contract, Derived, Expression, Guard, LIST_LENGTH, Law, Monitor, Program, Rule, Statement, Steer,
+    Target, Type, default,
 };
 
 impl std::fmt::Debug for Program {
@@ -25,10 +25,14 @@ impl Type {
             Self::Frequency => "number / time",
             Self::Truth => "truth",
             Self::Vector => "vector",
-            Self::Place => "vector of length",
+            Self::Direction => "direction",
+            Self::Shift => "vector of length",
+            Self::Place => "position",
             Self::Whisker => "whisker",
             Self::Contour => "contour",
             Self::Choice => "E",
+            Self::Record => "R",
+            Self::List => "L",
         }
     }
 }
@@ -56,7 +60,8 @@ impl Program {
     fn head(&self, initial: &str) -> String {
         let whiskers: Vec<String> = (0..self.whiskers).map(|whisker| format!("w{whisker}")).collect();
         let mut text = format!("machine m\nwhisker {}\ninitial {initial}\n", whiskers.join(", "));
-        text.push_str("type E = e0 or e1 or e2\n");
+        text.push_str("type E = e0 or e1 or e2\ntype R(n: number, p: position, b: truth)\n");
+        writeln!(text, "type L = list of {LIST_LENGTH} position").unwrap();
         for contour in 0..self.contours {
             writeln!(text, "contour c{contour} of {} points 2 mm apart", 3 + contour).unwrap();
         }
@@ -167,6 +172,9 @@ fn list(values: &[Expression]) -> String {
 
 fn call(name: &str, values: &[Expression]) -> String {
     let list = list(values);
+    if name == "L" {
+        return "L()".to_owned();
+    }
     if list.is_empty() { name.to_owned() } else { format!("{name}({list})") }
 }
 

@@ -12,18 +12,29 @@ pub(crate) enum Type {
     Frequency,
     Truth,
     Vector,
+    Direction,
+    /// A displacement.
+    Shift,
     Place,
     Whisker,
     Contour,
     /// The enumeration that every program has.
     Choice,
+    /// The record that every program has: a number, a position and a truth.
+    Record,
+    /// The list that every program has: up to [`LIST_LENGTH`] positions.
+    List,
 }
 
+/// The maximum length of the list.
+pub(crate) const LIST_LENGTH: usize = 3;
+
 impl Type {
-    pub(crate) const ALL: [Self; 13] = [
+    pub(crate) const ALL: [Self; 17] = [
         Self::Number,
         Self::Truth,
         Self::Vector,
+        Self::Direction,
         Self::Whisker,
         Self::Speed,
         Self::Length,
@@ -32,8 +43,11 @@ impl Type {
         Self::Rate,
         Self::Frequency,
         Self::Place,
+        Self::Shift,
         Self::Contour,
         Self::Choice,
+        Self::Record,
+        Self::List,
     ];
 }
 

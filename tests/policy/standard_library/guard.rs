@@ -45,7 +45,7 @@ fn guards_hold_when_they_say() {
         let turned = Felt::at(Pose { position: Point2::new(0.1, 0.0), heading: PI - 0.01 });
         assert!(holds("is_facing(-179 deg, 2 deg)", whisker, &turned));
         assert!(!holds("is_facing(-179 deg, 1 deg)", whisker, &turned));
-        assert!(holds("is_near(body.position, vector(0.1 m, 3 mm), 4 mm)", whisker, &turned));
-        assert!(!holds("is_near(body.position, vector(0.1 m, 5 mm), 4 mm)", whisker, &turned));
+        assert!(holds("is_near(body.position, position(0.1 m, 3 mm), 4 mm)", whisker, &turned));
+        assert!(!holds("is_near(body.position, position(0.1 m, 5 mm), 4 mm)", whisker, &turned));
     }
 }

@@ -29,12 +29,12 @@ pub(crate) fn commanded(whisker: usize, does: &str, felt: &Felt) -> (Mover, Vect
     }
 }
 
-pub(crate) fn vector(vector: Vector2) -> String {
-    format!("vector({:?}, {:?})", vector.x, vector.y)
+pub(crate) fn unit_vector(vector: Vector2) -> String {
+    format!("unit(vector({:?}, {:?}))", vector.x, vector.y)
 }
 
 pub(crate) fn place(place: Point2) -> String {
-    format!("vector({:?} m, {:?} m)", place.x, place.y)
+    format!("position({:?} m, {:?} m)", place.x, place.y)
 }
 
 pub(crate) fn is_near(a: Vector2, b: Vector2) -> bool {

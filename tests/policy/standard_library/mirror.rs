@@ -7,7 +7,7 @@ use vibrissa::geometry::{Point2, Pose, Vector2, turn_between, unit};
 use vibrissa_runtime::machine::{Mover, Turn};
 
 use super::felt::{Felt, Whisker, flipped};
-use super::law::{commanded, is_near, place, vector};
+use super::law::{commanded, is_near, place, unit_vector};
 
 prop_compose! {
     /// Both whiskers touch, and the walls do not go opposite ways: else some laws keep the last command.
@@ -33,7 +33,7 @@ proptest! {
     ) {
         let (point, along) = (Point2::new(px, py), unit(direction));
         let does = |point: Point2, along: Vector2| {
-            let (point, along) = (place(point), vector(along));
+            let (point, along) = (place(point), unit_vector(along));
             [
                 "do swipe(w, 300 urad, 50 mm/s)".to_owned(),
                 "do swipe_tilted(w, 300 urad, 50 mm/s, 10 deg)".to_owned(),

@@ -7,7 +7,7 @@ use vibrissa::geometry::{Pose, unit};
 use vibrissa_runtime::machine::Turn;
 
 use super::felt::{Felt, swiping};
-use super::law::{commanded, is_near, vector};
+use super::law::{commanded, is_near, unit_vector};
 
 /// The yaw offset (rad) and the direction of travel that a policy reads.
 fn offset(whisker: usize, felt: &Felt) -> (f64, vibrissa::geometry::Vector2) {
@@ -44,7 +44,7 @@ proptest! {
 
     #[test]
     fn laws_turn_the_body_to_that_offset_and_no_farther(whisker in 0_usize..2, travel in -PI..PI, forward in 0.0..1.2_f64) {
-        let (surface, mounting) = (vector(unit(travel)), FRAC_PI_2 - forward);
+        let (surface, mounting) = (unit_vector(unit(travel)), FRAC_PI_2 - forward);
         for law in [
             format!("do follow(w, {surface}, 300 urad * w.side, 50 mm/s, 0 deg)"),
             format!("do return_to_edge(w, body.position, {surface}, 9 mm, 50 mm/s)"),

@@ -56,7 +56,7 @@ proptest! {
     ) {
         let pose = Pose { position: Point2::new(x, y), heading };
         let place = pose.point_to_world(Point2::new(ahead, left));
-        let clearance = told(&rig, pose, &format!("clearance(vector({:?} m, {:?} m))", place.x, place.y));
+        let clearance = told(&rig, pose, &format!("clearance(position({:?} m, {:?} m))", place.x, place.y));
         let expected = distance(&rig.platform.outline_body(), Point2::new(ahead, left));
         prop_assert!((clearance - expected).abs() < 1e-9, "{} {}", clearance, expected);
     }
@@ -73,7 +73,7 @@ proptest! {
         prop_assert_eq!(told(&rig, pose, "body.tail_width"), platform.tail_width);
         for (end, reach) in [("nose", platform.length - platform.centre_of_mass), ("tail", -platform.centre_of_mass)] {
             let expected = pose.point_to_world(Point2::new(reach, 0.0));
-            let place = format!("vector({:?} m, {:?} m)", expected.x, expected.y);
+            let place = format!("position({:?} m, {:?} m)", expected.x, expected.y);
             let apart = told(&rig, pose, &format!("|body.{end} - {place}|"));
             prop_assert!(apart.abs() < 1e-12, "{}", apart);
         }

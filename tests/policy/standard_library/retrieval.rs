@@ -10,7 +10,7 @@ use vibrissa_runtime::rig::Rig;
 
 use super::felt::{Felt, swiping};
 use super::guard::holds;
-use super::law::{commanded, is_near, machine, place, vector};
+use super::law::{commanded, is_near, machine, place, unit_vector};
 
 #[test]
 fn detaching_lifts_the_whisker_off_its_surface_without_turning() {
@@ -24,7 +24,7 @@ fn detaching_lifts_the_whisker_off_its_surface_without_turning() {
 
 #[test]
 fn whisking_back_goes_straight_from_the_contact_to_the_edge() {
-    let law = "do whisk_back(w, vector(0.1 m, 0.2 m), vector(0.1 m, 0.19 m), 60 urad, 40 mm/s)";
+    let law = "do whisk_back(w, position(0.1 m, 0.2 m), position(0.1 m, 0.19 m), 60 urad, 40 mm/s)";
     let (mover, along, speed, turn) = commanded(0, law, &swiping(0, 0.2));
     assert_eq!((mover, speed, turn), (Mover::Whisker(0), 0.04, Turn::Rate(0.0)));
     assert!(is_near(along.normalize(), Vector2::new(0.0, -1.0)));
@@ -33,7 +33,7 @@ fn whisking_back_goes_straight_from_the_contact_to_the_edge() {
 #[test]
 fn an_approach_goes_ahead_and_as_much_towards_the_object() {
     for whisker in [0, 1] {
-        let law = "do approach(w, vector(1, 0), 40 mm/s)";
+        let law = "do approach(w, direction(0 deg), 40 mm/s)";
         let (mover, along, speed, turn) = commanded(whisker, law, &Felt::at(Pose::default()));
         assert_eq!((mover, speed, turn), (Mover::Whisker(whisker), 0.04, Turn::Rate(0.0)));
         assert!(is_near(along, Vector2::new(1.0, Felt::side(whisker))));
@@ -52,7 +52,7 @@ proptest! {
         let near = true_corner + (short.clamp(-0.006, 0.006) - short) * way;
         let [edge, contact, near] = [edge, contact, near].map(place);
         let guard = format!(
-            "is_near(corner({edge}, {}, {contact}, {}, 6 mm), {near}, 0.001 mm)", vector(way), vector(surface)
+            "is_near(corner({edge}, {}, {contact}, {}, 6 mm), {near}, 0.001 mm)", unit_vector(way), unit_vector(surface)
         );
         prop_assert!(holds(&guard, 0, &Felt::at(Pose::default())));
     }
@@ -85,16 +85,16 @@ proptest! {
         let surface = unit(side * around);
         let off = rotate(surface, -FRAC_PI_2 * side);
         let edge = Point2::new(0.3, 0.4);
-        let (at, new) = (place(edge), vector(surface));
+        let (at, new) = (place(edge), unit_vector(surface));
         let tilt = side * 20_f64.to_radians();
         let (law, place, heading_due) = match step {
             0 => (
-                format!("do return_to_edge(w, {at}, vector(1, 0), 20 mm, 50 mm/s)"),
+                format!("do return_to_edge(w, {at}, direction(0 deg), 20 mm, 50 mm/s)"),
                 edge - 0.02 * side * Vector2::new(0.0, 1.0),
                 0.0,
             ),
             1 => (
-                format!("do reach_around(w, {at}, vector(2, 0), 10 mm, {around:?} rad, 20 deg, 50 mm/s)"),
+                format!("do reach_around(w, {at}, direction(0 deg), 10 mm, {around:?} rad, 20 deg, 50 mm/s)"),
                 edge + 0.01 * surface,
                 side * around + tilt,
             ),

@@ -38,7 +38,7 @@ fn a_whisker_that_is_hardly_bent_gets_on_along_the_surface() {
 #[test]
 fn a_whisker_follows_a_surface_that_it_does_not_feel_yet_and_comes_nearer() {
     for whisker in [0, 1] {
-        let law = "do follow(w, vector(1, 0), 300 urad * w.side, 50 mm/s, 0 deg)";
+        let law = "do follow(w, direction(0 deg), 300 urad * w.side, 50 mm/s, 0 deg)";
         let (mover, along, speed, turn) = commanded(whisker, law, &Felt::at(Pose::default()));
         assert_eq!((mover, speed, turn), (Mover::Whisker(whisker), 0.05, Turn::Rate(0.0)));
         assert!(along.x > 0.0 && along.y * Felt::side(whisker) > 0.0);

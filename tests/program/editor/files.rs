@@ -48,7 +48,7 @@ fn used_files_are_read_from_the_editor_or_else_from_where_they_lie() {
     assert!(refused["error"]["message"].as_str().unwrap().contains("belongs to the standard library"), "{refused}");
 
     // The library is opened, with a fault; then it is closed, and counts as it lies on the disk.
-    let faulty = corner.replace("stop", "steer body along w.base at 3 mm turning 0 deg/s");
+    let faulty = corner.replace("stop", "steer body along w.tip_base at 3 mm turning 0 deg/s");
     open(&mut editor, &corner_uri, &faulty);
     assert_eq!(editor.diagnostics["uri"], corner_uri);
     assert_eq!(covered(&faulty, &editor.diagnostics["diagnostics"][0]["range"]), "3 mm");

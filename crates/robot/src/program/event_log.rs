@@ -58,7 +58,7 @@ fn message(program: &Program, logged: &TimedMessage) -> String {
     };
     let state = message.state.and_then(|state| program.states.get(state));
     let state = state.map_or_else(String::new, |state| format!("state {}: ", state.name));
-    format!("{time:.3} s: {state}{}", message.line(numbers, &program.whiskers))
+    format!("{time:.3} s: {state}{}", message.shown(numbers, &program.whiskers))
 }
 
 fn seconds(time_ns: u64) -> f64 {

@@ -42,6 +42,7 @@ pub use observer::{ContractId, Duration, Observer, Standing, TransitionId, Tried
 pub use op::{Block, Op, Register, Wide};
 pub use output::{
     LoggedMessage, MESSAGE_LIMIT, Message, MessageValue, NUMBERS_LIMIT, OutputKind, Outputs, PLOT_LIMIT, Plot, Shown,
+    ShownMessage,
 };
 pub use parameter::{DESCRIPTION_LIMIT, Parameter, ParameterValue, SetError};
 pub use program::{

@@ -213,27 +213,37 @@ impl Message {
         numbers
     }
 
-    /// Each value with its name. `numbers` are those of a [`LoggedMessage`].
-    pub fn values<'p>(
-        &'p self,
-        numbers: &'p [f64; NUMBERS_LIMIT],
-        whiskers: &'p [String],
-    ) -> impl Iterator<Item = (&'p Arc<str>, Shown)> {
+    /// The message with its values. `numbers` are those of a [`LoggedMessage`], and `whiskers` the names of the program's
+    /// whiskers.
+    #[must_use]
+    pub fn shown(&self, numbers: &[f64; NUMBERS_LIMIT], whiskers: &[String]) -> ShownMessage {
         let mut next = 0;
-        self.values.iter().filter_map(move |value| {
+        let values = self.values.iter().filter_map(|value| {
             let first = next;
             next += value.kind.width();
-            Some((&value.name, value.kind.read(numbers.get(first..)?, whiskers)?))
-        })
+            Some((Arc::clone(&value.name), value.kind.read(numbers.get(first..)?, whiskers)?))
+        });
+        ShownMessage { text: Arc::clone(&self.text), values: values.collect() }
     }
+}
 
-    /// The text with all values, as in `the edge was lost: w = r0, |w.deflection| = 120 urad`. The arguments are those of
-    /// [`values`](Self::values).
-    #[must_use]
-    pub fn line(&self, numbers: &[f64; NUMBERS_LIMIT], whiskers: &[String]) -> String {
-        let values: Vec<String> =
-            self.values(numbers, whiskers).map(|(name, value)| format!("{name} = {value}")).collect();
-        if values.is_empty() { self.text.to_string() } else { format!("{}: {}", self.text, values.join(", ")) }
+/// A message with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShownMessage {
+    /// The text.
+    pub text: Arc<str>,
+    /// The expressions, each with its value.
+    pub values: Vec<(Arc<str>, Shown)>,
+}
+
+/// The text with all values, as in `the edge was lost: w = r0, |w.deflection| = 120 urad`.
+impl fmt::Display for ShownMessage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)?;
+        for (index, (name, value)) in self.values.iter().enumerate() {
+            write!(f, "{} {name} = {value}", if index == 0 { ":" } else { "," })?;
+        }
+        Ok(())
     }
 }
 
@@ -242,6 +252,6 @@ impl Message {
 pub struct LoggedMessage {
     /// Index of the message in [`Outputs::messages`].
     pub message: usize,
-    /// The numbers of its values, for [`Message::values`].
+    /// The numbers of its values, for [`Message::shown`].
     pub numbers: [f64; NUMBERS_LIMIT],
 }

@@ -19,7 +19,7 @@ param fast = 50 mm/s in 1 .. 200 mm/s
 param free = 2
 let bend(w: whisker) = abs(w.deflection) + turn(w.yaw, body.yaw) * sign(w.side) * w.sense
 law touch(w: whisker, s: speed) {
-  let v = w.contour.point(1 mm) + w.tip_spread * (w.contour.normal + w.contour.tangent(exp(0) * 1 mm)) + w.tip_at(bend(w)) + w.tip_base + w.base - w.tip - rotate(body.position, 1 rad)
+  let v = w.contour.point(1 mm) + w.tip_spread * (w.contour.normal + w.contour.tangent(exp(0) * 1 mm)) + w.tip_at(bend(w)) + w.tip_base - w.tip + rotate(w.base - body.position, 1 rad)
   if w.touching and not w.contour.ready or |v| < w.length { record w }
   else if w.contour.curvature == 0 rad/m { hold }
   else { steer w along v at s facing angle(w.contour.end - body.position) }
@@ -27,7 +27,7 @@ law touch(w: whisker, s: speed) {
 monitor felt(w: whisker) { var most = 0 rad  if w.touching { set most = max(most, w.deflection) } }
 monitor right is felt(a)
 var farthest = 0 m
-if a.touching { set farthest = max(farthest, |a.tip| + right.most * 1 m / 1 rad)  mark found a }
+if a.touching { set farthest = max(farthest, |a.tip - a.base| + right.most * 1 m / 1 rad)  mark found a }
 initial Start
 state Start {
   var closest = 1 m
@@ -48,7 +48,7 @@ state Touch(w: whisker, s: speed, v: vector) {
 }
 failsafe -> Start
 always when time > 2 s for 1 s -> Failure("too long")
-always when cross(body.position, vector(1, 0)) > 1e6 m + farthest -> Failure("too far")
+always when cross(body.position - body.nose, vector(1, 0)) > 1e6 m + farthest -> Failure("too far")
 "#;
 
 /// A text's artifact.
