@@ -4,7 +4,8 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 17] = [
+pub(super) const MODULES: [(&str, &str); 18] = [
+    ("contact", include_str!("../../policies/std/contact.fsm")),
     ("convexity", include_str!("../../policies/std/convexity.fsm")),
     ("corridor", include_str!("../../policies/std/corridor.fsm")),
     ("explore", include_str!("../../policies/std/explore.fsm")),

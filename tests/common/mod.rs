@@ -102,6 +102,7 @@ impl Senses for Script {
             WhiskerScalar::Length => 0.1,
             WhiskerScalar::ContourCurvature => 3.0,
             WhiskerScalar::TipDeviation => 0.002,
+            WhiskerScalar::BaseAngleDeviation => 4e-7,
             WhiskerScalar::Fitted => 1.0,
         }
     }

@@ -191,6 +191,7 @@ impl Senses for Told {
             WhiskerScalar::ContourCurvature => "contour.curvature",
             WhiskerScalar::Yaw => "yaw",
             WhiskerScalar::TipDeviation => "tip_spread",
+            WhiskerScalar::BaseAngleDeviation => "deflection_spread",
             WhiskerScalar::Fitted => "fitted",
         };
         self.get(&format!("{}.{name}", ["r", "l"][whisker]))

@@ -154,9 +154,11 @@ impl<'m> Region<'m> {
                 self.narrow(Unknown::Deflection(whisker), side)
             }
             WhiskerScalar::ContourReady => self.keep(Unknown::Contour(whisker), |domain| domain.keep_ready(to)),
-            WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipDeviation | WhiskerScalar::Fitted => {
-                self.narrow(Unknown::Whisker(whisker, quantity), to)
-            }
+            WhiskerScalar::Yaw
+            | WhiskerScalar::Length
+            | WhiskerScalar::TipDeviation
+            | WhiskerScalar::BaseAngleDeviation
+            | WhiskerScalar::Fitted => self.narrow(Unknown::Whisker(whisker, quantity), to),
             WhiskerScalar::ContourCurvature => {
                 // Only a contour can give a number.
                 to.nan

@@ -76,7 +76,9 @@ impl Domain {
             Unknown::Body(BodyScalar::Length | BodyScalar::Width) | Unknown::Whisker(_, WhiskerScalar::Length) => {
                 range(f64::MIN_POSITIVE, DISTANCE_LIMIT)
             }
-            Unknown::Whisker(_, WhiskerScalar::TipDeviation) => range(0.0, f64::INFINITY),
+            Unknown::Whisker(_, WhiskerScalar::TipDeviation | WhiskerScalar::BaseAngleDeviation) => {
+                range(0.0, f64::INFINITY)
+            }
             Unknown::Body(BodyScalar::NoseReach)
             | Unknown::BodyPosition(_)
             | Unknown::Whisker(..)
@@ -208,9 +210,11 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
             let curvature = source.range(Unknown::Whisker(whisker, quantity));
             once_readable(source, whisker, curvature)
         }
-        WhiskerScalar::Yaw | WhiskerScalar::Length | WhiskerScalar::TipDeviation | WhiskerScalar::Fitted => {
-            source.range(Unknown::Whisker(whisker, quantity))
-        }
+        WhiskerScalar::Yaw
+        | WhiskerScalar::Length
+        | WhiskerScalar::TipDeviation
+        | WhiskerScalar::BaseAngleDeviation
+        | WhiskerScalar::Fitted => source.range(Unknown::Whisker(whisker, quantity)),
     }
 }
 

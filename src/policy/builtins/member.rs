@@ -83,7 +83,7 @@ const VECTOR: [Member; 2] = [
     member("y", Type::NUMBER, MemberSource::Component(1), "the second component of a vector"),
 ];
 
-const WHISKER: [Member; 14] = [
+const WHISKER: [Member; 15] = [
     scalar(
         "deflection",
         Type::ANGLE,
@@ -91,10 +91,16 @@ const WHISKER: [Member; 14] = [
         "the filtered angle of its base, counter-clockwise positive",
     ),
     scalar(
+        "deflection_spread",
+        Type::ANGLE,
+        WhiskerScalar::BaseAngleDeviation,
+        "standard deviation of `deflection`, from the noise that the rig states or that was measured in free air, and from vibrations of the shaft",
+    ),
+    scalar(
         "touching",
         Type::Truth,
         WhiskerScalar::Touching,
-        "true if the magnitude of the base angle exceeds the rig's contact threshold",
+        "true if the magnitude of the base angle exceeds the rig's contact threshold and five standard deviations",
     ),
     scalar("yaw", Type::ANGLE, WhiskerScalar::Yaw, "the direction of the undeflected shaft"),
     scalar(

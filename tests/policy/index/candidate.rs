@@ -50,6 +50,7 @@ fn a_property_offers_families_and_their_parameters() {
 fn behind_a_point_come_the_members_of_what_stands_before_it() {
     let members = [
         "deflection",
+        "deflection_spread",
         "touching",
         "yaw",
         "side",

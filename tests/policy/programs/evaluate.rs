@@ -220,6 +220,7 @@ impl Interpreter<'_> {
             "sense" => scalar(WhiskerScalar::Sense),
             "length" => scalar(WhiskerScalar::Length),
             "tip_spread" => scalar(WhiskerScalar::TipDeviation),
+            "deflection_spread" => scalar(WhiskerScalar::BaseAngleDeviation),
             "loop_closed" => Value::Truth(self.senses.loop_closed(whisker, values[0], values[1])),
             "ready" => truth(WhiskerScalar::ContourReady),
             "tip" => vector(WhiskerVector::Tip),

@@ -92,7 +92,10 @@ impl Senses for Felt {
             WhiskerScalar::Length => LENGTH,
             WhiskerScalar::Fitted => 1.0,
             WhiskerScalar::ContourReady => f64::from(u8::from(ready)),
-            WhiskerScalar::Sense | WhiskerScalar::ContourCurvature | WhiskerScalar::TipDeviation => 0.0,
+            WhiskerScalar::Sense
+            | WhiskerScalar::ContourCurvature
+            | WhiskerScalar::TipDeviation
+            | WhiskerScalar::BaseAngleDeviation => 0.0,
         }
     }
 

@@ -225,7 +225,7 @@ fn policies() -> [String; 2] {
         law go(w: whisker) {
           let bend = lowpass(w.deflection, 5 Hz)
           let pull = pid(turn(body.yaw, angle(w.tip - w.base)), 2 Hz, 0.5 Hz^2, 0.1, 1 rad/s)
-          steer w along w.tip_at(bend) / w.deflection at 50 mm/s * min(1, |w.tip| / 1 m) turning pull
+          steer w along w.tip_at(bend) / w.deflection at 50 mm/s * min(1, |w.tip - body.position| / 1 m) turning pull
         }
         state Go { record r0 do go(r0) after 1 s -> Other }
         state Other { record l0 do go(l0) after 0.5 s -> Go failsafe -> Still }

@@ -95,7 +95,7 @@ pub enum BodyScalar {
 pub enum WhiskerScalar {
     /// Filtered base angle (rad, counter-clockwise positive).
     BaseAngle,
-    /// True if the base angle exceeds the contact threshold of the rig.
+    /// True if the base angle exceeds the contact threshold: that of the rig, or five of its standard deviations.
     Touching,
     /// Direction of the undeflected shaft in the world frame (rad).
     Yaw,
@@ -113,6 +113,8 @@ pub enum WhiskerScalar {
     TipDeviation,
     /// True if the rig has the whisker.
     Fitted,
+    /// Standard deviation of the filtered base angle (rad).
+    BaseAngleDeviation,
 }
 
 impl WhiskerScalar {

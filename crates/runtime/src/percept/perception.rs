@@ -412,6 +412,7 @@ impl Senses for Perception {
             WhiskerScalar::ContourCurvature => self.contour(index).local().curvature().unwrap_or(f64::NAN),
             WhiskerScalar::TipDeviation => whisker().tip_deviation(),
             WhiskerScalar::Fitted => truth(self.in_sample[index].is_some()),
+            WhiskerScalar::BaseAngleDeviation => whisker().base_angle_deviation(),
         }
     }
 

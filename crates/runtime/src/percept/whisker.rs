@@ -9,7 +9,7 @@ use crate::math;
 use crate::rig::{Sensing, Whisker};
 use crate::signal::Reading;
 
-use super::base_angle::NOISE_THRESHOLD;
+use super::base_angle::{MODEL_DEVIATION, NOISE_THRESHOLD};
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
@@ -124,6 +124,11 @@ impl PerceivedWhisker {
     /// Filtered base angle (rad), or NaN if the tick has no valid reading.
     pub(super) fn base_angle(&self) -> f64 {
         self.base_angle.value()
+    }
+
+    /// Standard deviation (rad) of the filtered base angle, from noise and from effects outside of the model.
+    pub(super) fn base_angle_deviation(&self) -> f64 {
+        math::hypot(MODEL_DEVIATION, self.base_angle_deviation)
     }
 
     /// Begins a tick. Its readings follow.
