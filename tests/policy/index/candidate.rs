@@ -239,6 +239,7 @@ fn where_anything_may_be_written_nothing_is_offered() {
 #[test]
 fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
     let modules = [
+        "contact",
         "convexity",
         "corridor",
         "explore",
