@@ -129,9 +129,9 @@ impl<'f> Compiler<'f> {
     fn most(&mut self, given: &Name) -> u16 {
         let most: Option<u16> = given.text.parse().ok();
         most.filter(|most| (1..=LENGTH_LIMIT).contains(most)).unwrap_or_else(|| {
-            let message = "the length of a list is a whole number";
+            let message = format!("a list has from 1 to {LENGTH_LIMIT} elements");
             let diagnostic = Diagnostic::error("P0417", message, given.span, "not possible");
-            self.report(diagnostic.hint(format!("write a number from 1 to {LENGTH_LIMIT}")));
+            self.report(diagnostic.hint("write a whole number in this range"));
             1
         })
     }

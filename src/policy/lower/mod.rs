@@ -17,6 +17,7 @@ mod memory;
 mod monitor;
 mod names;
 mod needs;
+mod operator;
 mod output;
 mod parameter;
 mod property;

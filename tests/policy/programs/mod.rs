@@ -1,5 +1,6 @@
 //! Whole random programs mean in a machine what they mean to a plain interpreter.
 
+mod arithmetic;
 mod evaluate;
 mod explained;
 mod filter;
