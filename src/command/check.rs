@@ -159,6 +159,13 @@ struct StateSummary {
     depth: usize,
 }
 
+impl StateSummary {
+    /// True for a state inside of a behaviour. Its name begins with that of the state that uses the behaviour.
+    fn is_of_behaviour(&self) -> bool {
+        self.name.contains('.')
+    }
+}
+
 pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let checked = arguments.policies.iter().map(|path| {
@@ -320,7 +327,8 @@ fn describe(file: &str, machine: &Summary) -> String {
     let has_failsafe = machine.states.iter().any(|state| state.failsafe.is_some());
     let headings = ["state", "transitions", "operations in a tick that stays"];
     let headings = headings.into_iter().chain(has_failsafe.then_some("failsafe"));
-    let states = machine.states.iter().map(|state| {
+    let (inner, own): (Vec<_>, Vec<_>) = machine.states.iter().partition(|state| state.is_of_behaviour());
+    let states = own.iter().map(|state| {
         let initial = if state.initial { " (initial)" } else { "" };
         let name = format!("{:indent$}{}{initial}", "", state.name, indent = 2 * state.depth);
         let cells = [name, state.transitions.to_string(), state.operations.to_string()];
@@ -357,6 +365,15 @@ fn describe(file: &str, machine: &Summary) -> String {
         text.extend(["failsafe -> ", failsafe, "\n"]);
     }
     text += &states.fitted();
+    if !inner.is_empty() {
+        let operations = inner.iter().map(|state| state.operations).max().unwrap_or_default();
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            "\n{} in behaviours, with at most {operations} operations in a tick that stays; `--json` lists them",
+            count(inner.len(), "further state")
+        );
+    }
     if !machine.contracts.is_empty() {
         let contracts = machine.contracts.iter().map(|ContractSummary { state, contract, proved }| {
             let how = if *proved { "proved" } else { "watched in runs" };

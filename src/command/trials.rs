@@ -12,7 +12,7 @@ use super::progress::Progress;
 use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::report::{picture, retrieval_picture};
-use crate::results::{Document, Failsafes, Inclination, RunResult};
+use crate::results::{Collisions, Document, Failsafes, Inclination, RunResult};
 use crate::run::Trace;
 use crate::scene::Violation;
 use crate::trial::{Inputs, Trial, TrialResult, in_parallel, short_hash};
@@ -156,8 +156,14 @@ pub(super) fn report_events(result: &RunResult) {
         output::message(format_args!("{scenario}: {outcome}: {reason}"));
     }
     if collisions.count > 0 {
-        let touched = collisions.time_s;
-        output::message(format_args!("{scenario}: the platform's body touched something for {touched:.1} s"));
+        let Collisions { count, time_s, first_s, first_state, first_position_m } = collisions;
+        let [x, y] = first_position_m.unwrap_or([f64::NAN; 2]);
+        let (first_s, state) = (first_s.unwrap_or(f64::NAN), first_state.as_deref().unwrap_or("no state"));
+        let times = if *count == 1 { "once".to_owned() } else { format!("{count} times, first") };
+        output::message(format_args!(
+            "{scenario}: the platform's body collided {times} at {first_s:.2} s in {state}, with its centre at ({x:.3} m, {y:.3} m); \
+             {time_s:.1} s in contact"
+        ));
     }
     // A planar simulation keeps every whisker in the plane.
     if let (Some(inclination), Some(_)) = (inclination, out_of_plane)

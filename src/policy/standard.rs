@@ -4,7 +4,7 @@
 pub(super) const ROOT: &str = "std";
 
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 18] = [
+pub(super) const MODULES: [(&str, &str); 19] = [
     ("contact", include_str!("../../policies/std/contact.fsm")),
     ("convexity", include_str!("../../policies/std/convexity.fsm")),
     ("corridor", include_str!("../../policies/std/corridor.fsm")),
@@ -18,6 +18,7 @@ pub(super) const MODULES: [(&str, &str); 18] = [
     ("obstacle", include_str!("../../policies/std/obstacle.fsm")),
     ("platform", include_str!("../../policies/std/platform.fsm")),
     ("retrieval", include_str!("../../policies/std/retrieval.fsm")),
+    ("search", include_str!("../../policies/std/search.fsm")),
     ("senses", include_str!("../../policies/std/senses.fsm")),
     ("shaft", include_str!("../../policies/std/shaft.fsm")),
     ("sweep", include_str!("../../policies/std/sweep.fsm")),

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
 use crate::score::{
-    CornerFigures, CornerStatistics, Moments, OutOfPlaneFigures, RetrievalFigures, Score, StateShare, TipDistance,
+    self, CornerFigures, CornerStatistics, Moments, OutOfPlaneFigures, RetrievalFigures, Score, StateShare, TipDistance,
 };
 use vibrissa_runtime::machine::Program;
 
@@ -54,6 +54,8 @@ pub struct RunResult {
     pub coverage: f64,
     /// Share of the outline of the object whose loop closed that was traced, 0 to 1.
     pub object_coverage: f64,
+    /// Share of each outline of the reference that was traced, 0 to 1, in the order of the objects.
+    pub outline_coverages: Vec<f64>,
     /// Share of the reference that was not traced and that the rig certainly cannot reach, 0 to 1.
     pub out_of_reach: f64,
     /// Share of the rest of the reference that was traced, 0 to 1.
@@ -251,13 +253,19 @@ pub struct Corners {
 }
 
 /// Contacts of the platform's body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Collisions {
     /// Number of separate contacts.
     pub count: usize,
     /// Time in contact.
     pub time_s: f64,
+    /// Time of the first contact.
+    pub first_s: Option<f64>,
+    /// Name of the active state at the first contact.
+    pub first_state: Option<String>,
+    /// Position of the platform's centre of mass at the first contact.
+    pub first_position_m: Option<[f64; 2]>,
 }
 
 /// Motion of tips out of the plane.
@@ -364,6 +372,7 @@ impl RunResult {
             }),
             coverage: score.coverage,
             object_coverage: score.object_coverage,
+            outline_coverages: score.outline_coverages.clone(),
             out_of_reach: score.out_of_reach,
             coverage_in_reach: score.coverage_in_reach(),
             passage: score.passage.map(|passage| Passage {
@@ -382,7 +391,7 @@ impl RunResult {
             states: score.states.clone(),
             path_m: score.path,
             path_ratio: score.path_ratio,
-            collisions: Collisions { count: score.collisions.count, time_s: score.collisions.time },
+            collisions: Collisions::new(&score.collisions, &run.trace),
             out_of_plane: score.out_of_plane.map(|figures| OutOfPlane::new(&figures, &run.trace)),
             inclination: score.inclination.as_ref().map(|figures| Inclination::new(figures, &run.trace)),
             tick_us: TickUs {
@@ -404,6 +413,19 @@ pub fn policy_label(program: &Program) -> String {
 /// The name of a policy, or of its file, with a mark if it used true tips.
 pub(crate) fn marked(policy: &str, true_tips: bool) -> String {
     if true_tips { format!("{policy} (true tips)") } else { policy.to_owned() }
+}
+
+impl Collisions {
+    fn new(figures: &score::Collisions, trace: &Trace) -> Self {
+        let first = figures.first;
+        Self {
+            count: figures.count,
+            time_s: figures.time,
+            first_s: first.map(|contact| contact.time),
+            first_state: first.and_then(|contact| state_name(trace, contact.state)),
+            first_position_m: first.map(|contact| contact.position.coords.into()),
+        }
+    }
 }
 
 impl OutOfPlane {

@@ -135,7 +135,10 @@ impl Monitor {
         }
         let time = self.stop.time;
         Some(match self.stop {
-            Stop { loop_closed: None, reached: None, .. } => Ending::COMPLETED,
+            Stop { loop_closed: None, reached: None, succeeded: false, .. } => Ending::COMPLETED,
+            Stop { loop_closed: None, reached: None, .. } => {
+                Ending::timeout(format!("the policy did not end in `Success` within {time} s"))
+            }
             Stop { loop_closed: None, .. } => Ending::timeout(format!("the position was not reached within {time} s")),
             Stop { .. } => Ending::timeout(format!("the loop did not close within {time} s")),
         })

@@ -23,17 +23,19 @@ const MAX_TICKS: f64 = 1e7;
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop>> {
     let mut fields = Fields::of(reader, &entry.value, "a stop", entry.key.span)?;
     let time = fields.number(reader, &TIME);
-    let [loop_closed, reached, stalled] = ["loop_closed", "reached", "stalled"].map(|name| fields.entry(name));
+    let entries = ["loop_closed", "reached", "succeeded", "stalled"].map(|name| fields.entry(name));
+    let [loop_closed, reached, succeeded, stalled] = entries;
     fields.finish(reader);
     // An invalid key has been reported, so the scenario is rejected anyway.
     let loop_closed = loop_closed.and_then(|entry| read_loop_closed(reader, entry, time.as_ref()));
     let reached = reached.and_then(|entry| read_reached(reader, entry, time.as_ref()));
+    let succeeded = succeeded.and_then(|entry| reader.flag(&entry.value)).unwrap_or_default();
     let stalled = stalled.and_then(|entry| read_stalled(reader, entry));
     let time = time?;
     // A run without a goal need not make progress.
-    let has_aim = loop_closed.is_some() || reached.is_some();
+    let has_aim = loop_closed.is_some() || reached.is_some() || succeeded;
     let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
-    Some(Placed { value: Stop { time: time.value, loop_closed, reached, stalled }, span: time.span })
+    Some(Placed { value: Stop { time: time.value, loop_closed, reached, succeeded, stalled }, span: time.span })
 }
 
 fn read_loop_closed(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<LoopClosed> {

@@ -4,8 +4,9 @@ use crate::geometry::Point2;
 
 /// The stop condition of a run.
 ///
-/// With [`loop_closed`](Self::loop_closed) or [`reached`](Self::reached), a run completes as soon as one of them holds,
-/// and times out at [`time`](Self::time). Otherwise it completes at that time.
+/// With [`loop_closed`](Self::loop_closed) or [`reached`](Self::reached), a run completes as soon as one of them holds. A
+/// policy can complete it by a success, too. With either or with [`succeeded`](Self::succeeded), a run times out at
+/// [`time`](Self::time). Otherwise it completes at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     /// The time limit (simulated s).
@@ -14,6 +15,8 @@ pub struct Stop {
     pub loop_closed: Option<LoopClosed>,
     /// The condition of a reached position, if there is one.
     pub reached: Option<Reached>,
+    /// True if the policy has to succeed.
+    pub succeeded: bool,
     /// The condition for ending a run without progress; `None` to disable it.
     pub stalled: Option<Stalled>,
 }

@@ -1,5 +1,6 @@
 //! Collisions of the platform's body.
 
+use crate::geometry::Point2;
 use crate::run::Trace;
 
 use super::estimate::MAX_BREAK;
@@ -12,6 +13,19 @@ pub struct Collisions {
     pub count: usize,
     /// The duration of all contacts (s), with the resolution of a tick.
     pub time: f64,
+    /// The first contact.
+    pub first: Option<FirstContact>,
+}
+
+/// The tick of the first contact of the platform's body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstContact {
+    /// The time (s).
+    pub time: f64,
+    /// The position of the platform's centre of mass (m, world frame).
+    pub position: Point2,
+    /// The index of the active state. `None` after a failure.
+    pub state: Option<usize>,
 }
 
 impl Collisions {
@@ -25,6 +39,11 @@ impl Collisions {
             touches += 1.0;
             last = Some(index);
         }
-        Self { time: touches * trace.period, ..collisions }
+        // A crash ends the run after the last tick.
+        let touching =
+            trace.ticks.iter().find(|tick| tick.body_touches).or(trace.ticks.last().filter(|_| trace.crashed));
+        let first =
+            touching.map(|tick| FirstContact { time: tick.time, position: tick.body.position, state: tick.state });
+        Self { time: touches * trace.period, first, ..collisions }
     }
 }

@@ -21,14 +21,20 @@ pub fn traced(estimate: &Estimate, reference: &Contour) -> Vec<Range<f64>> {
     })
 }
 
-/// The traced share (0 to 1) of one object's outline: of the object that the last tip of the run belongs to. Its loop
-/// is the one that closed. 0 without tips.
+/// The traced share (0 to 1) of each contour of the reference, in its order.
 #[must_use]
-pub fn object_coverage(estimate: &Estimate, last_tip: Option<Point2>, reference: &ContourSet) -> f64 {
+pub fn outline_coverages(estimate: &Estimate, reference: &ContourSet) -> Vec<f64> {
+    reference.contours().map(|contour| coverage(estimate, &contour.clone().into())).collect()
+}
+
+/// The [traced share](outline_coverages) of the outline that the last tip of the run belongs to. Its loop is the one that
+/// closed. 0 without tips.
+#[must_use]
+pub fn object_coverage(outlines: &[f64], last_tip: Option<Point2>, reference: &ContourSet) -> f64 {
     let Some(tip) = last_tip else { return 0.0 };
-    let distance = |contour: &&Contour| contour.nearest(tip).distance;
-    let nearest = reference.contours().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    nearest.map_or(0.0, |contour| coverage(estimate, &contour.clone().into()))
+    let distances = reference.contours().map(|contour| contour.nearest(tip).distance);
+    let nearest = distances.zip(outlines).min_by(|(a, _), (b, _)| a.total_cmp(b));
+    nearest.map_or(0.0, |(_, &coverage)| coverage)
 }
 
 /// The [traced] share of the reference's length (0 to 1).

@@ -3,7 +3,7 @@
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
     Passage, RetrievalFigures, StateShare, axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach,
-    state_shares, tips,
+    outline_coverages, state_shares, tips,
 };
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
@@ -18,6 +18,8 @@ pub struct Score {
     pub coverage: f64,
     /// The traced share of the [object whose loop closed](object_coverage), 0 to 1.
     pub object_coverage: f64,
+    /// The [traced share of each outline](outline_coverages) of the reference, 0 to 1.
+    pub outline_coverages: Vec<f64>,
     /// The share of the reference (0 to 1) that was not traced and is certainly [out of reach](out_of_reach).
     pub out_of_reach: f64,
     /// The passage through a tunnel. `None` without one.
@@ -55,10 +57,12 @@ impl Score {
         let tips = tips(&run.trace, &truth.surfaces, rig);
         let last_tip = tips.iter().max_by_key(|tip| tip.tick).map(|tip| tip.tip_world);
         let path = body_path(&run.trace.ticks);
+        let outlines = outline_coverages(&estimate, &truth.reference);
         Self {
             error: ErrorFigures::of(&tips),
             coverage: coverage(&estimate, &truth.reference),
-            object_coverage: object_coverage(&estimate, last_tip, &truth.reference),
+            object_coverage: object_coverage(&outlines, last_tip, &truth.reference),
+            outline_coverages: outlines,
             out_of_reach: out_of_reach(&estimate, truth, rig) / truth.reference.length(),
             passage: Passage::of((&run.trace, &tips, &estimate), &truth.axes, &truth.reference, rig),
             hausdorff: hausdorff(&estimate, &truth.reference),

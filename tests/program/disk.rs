@@ -121,3 +121,17 @@ fn a_run_is_completed_where_the_platform_is_to_get_to() {
     assert_eq!(elsewhere.outcome, Outcome::Timeout);
     assert_eq!(elsewhere.reason.as_deref(), Some("the position was not reached within 2 s"));
 }
+
+#[test]
+fn a_run_whose_policy_has_to_succeed_is_complete_when_it_does() {
+    let text = read("scenarios/disk.yaml").text.replace("loop_closed: {within: 5 mm, after: 5 s}", "succeeded: true");
+    let scene = scene(&text.replace("time: 120 s", "time: 2 s"));
+    let ends = |duration: &str| {
+        let policy = format!(r#"machine m initial Still state Still {{ stop after {duration} -> Success("done") }}"#);
+        run(&scene, compile(&Source::new("m.fsm", &policy)).unwrap(), 0).0
+    };
+    let (in_time, too_late) = (ends("1 s"), ends("3 s"));
+    assert_eq!((in_time.outcome, in_time.reason.as_deref()), (Outcome::Completed, Some("done")));
+    assert_eq!(too_late.outcome, Outcome::Timeout);
+    assert_eq!(too_late.reason.as_deref(), Some("the policy did not end in `Success` within 2 s"));
+}

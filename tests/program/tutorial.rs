@@ -1,19 +1,21 @@
-//! The tutorial keeps what it promises: every step compiles, does what its tests say, and is warned of what the text says.
+//! The tutorial and the page about several objects keep what they promise: every policy compiles, does what its tests say, and
+//! is warned of what the text says.
 
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::policy::compile_with_warnings;
 
-const PAGE: &str = include_str!("../../docs/tutorial.md");
+const TUTORIAL: &str = include_str!("../../docs/tutorial.md");
+const SEVERAL_OBJECTS: &str = include_str!("../../docs/howto/several-objects.md");
 
-/// The blocks of the page in a language, in their order.
-fn blocks(language: &str) -> Vec<&'static str> {
+/// The blocks of a page in a language, in their order.
+fn blocks(page: &'static str, language: &str) -> Vec<&'static str> {
     let begin = format!("```{language}\n");
-    PAGE.split(begin.as_str()).skip(1).map(|behind| behind.split("```").next().unwrap()).collect()
+    page.split(begin.as_str()).skip(1).map(|behind| behind.split("```").next().unwrap()).collect()
 }
 
 #[test]
 fn every_step_but_the_one_that_says_so_compiles_without_a_warning() {
-    let steps = blocks("fsm");
+    let steps = blocks(TUTORIAL, "fsm");
     assert_eq!(steps.len(), 6);
     let mut told = String::new();
     for (index, step) in steps.into_iter().enumerate() {
@@ -22,7 +24,7 @@ fn every_step_but_the_one_that_says_so_compiles_without_a_warning() {
         assert_eq!(warnings.len(), usize::from(index == 3), "{}", terminal(&source, &warnings, Colour::Plain));
         told += &terminal(&source, &warnings, Colour::Plain);
     }
-    for line in blocks("text").concat().lines() {
+    for line in blocks(TUTORIAL, "text").concat().lines() {
         assert!(told.contains(line), "{told}");
     }
 }
@@ -37,10 +39,28 @@ fn every_step_passes_its_own_tests() {
     }
     let disk = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/disk.yaml");
     std::fs::copy(disk, folder.join("scenarios/disk.yaml")).unwrap();
-    for step in blocks("fsm") {
+    for step in blocks(TUTORIAL, "fsm") {
         std::fs::write(folder.join("policies/mine.fsm"), step).unwrap();
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"));
         let output = command.args(["test", "policies/mine.fsm"]).current_dir(&folder).output().unwrap();
         assert!(output.status.success(), "{step}{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[cfg(feature = "sim")]
+#[test]
+fn the_policy_for_several_objects_traces_them_in_both_worlds() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("several");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("mine.fsm"), blocks(SEVERAL_OBJECTS, "fsm").concat()).unwrap();
+    std::fs::write(folder.join("mine.yaml"), blocks(SEVERAL_OBJECTS, "yaml").concat()).unwrap();
+    for arguments in [&["test", "mine.fsm"][..], &["run", "mine.yaml", "--world", "quasistatic"]] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"))
+            .args(arguments)
+            .current_dir(&folder)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
 }

@@ -274,7 +274,7 @@ const RUN: [Member; 26] = [
         "completed",
         Type::Truth,
         RunFigure::Completed,
-        "true if the run completed: the loop closed, or the time of a scenario without a loop ended",
+        "true if the run completed: the policy succeeded, the loop closed, the goal was reached, or the time of a scenario without an aim ended",
     ),
     figure("failed", Type::Truth, RunFigure::Failed, "true if the run ended in `Failure`"),
     figure(

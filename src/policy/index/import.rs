@@ -8,7 +8,7 @@ use crate::diagnostic::{Source, Span};
 use crate::policy::ast::{From, Name, Use};
 use crate::policy::format::{Token, TokenKind};
 use crate::policy::path;
-use crate::policy::types::{Choices, Type};
+use crate::policy::types::{Choices, Compound, Type};
 
 use super::code_tokens;
 use super::declare::{declare, span_of};
@@ -107,8 +107,8 @@ pub(super) fn add_imported(source: &Source, import: &Import, symbols: &mut Vec<S
 
 /// True if a symbol is known only together with its owner.
 fn is_part(symbol: &Symbol) -> bool {
-    use SymbolKind::{Argument, Choice, Event, Exit, Memory, State};
-    matches!(symbol.kind, Choice | Argument | State | Exit | Event | Memory)
+    use SymbolKind::{Argument, Choice, Event, Exit, Field, Memory, State};
+    matches!(symbol.kind, Choice | Field | Argument | State | Exit | Event | Memory)
 }
 
 /// True if other files can use a symbol of a file.
@@ -130,6 +130,7 @@ fn declared(source: &Source, part: usize) -> Vec<Symbol> {
     let moved = |inner: Span| Span::new(span.start + inner.start, span.start + inner.end);
     let moved_type = |r#type| match r#type {
         Type::Choice(choices) => Type::Choice(Choices { declared: moved(choices.declared), ..choices }),
+        Type::Compound(compound) => Type::Compound(Compound { declared: moved(compound.declared), ..compound }),
         other => other,
     };
     let moved = |symbol: Symbol| {

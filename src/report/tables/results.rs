@@ -8,7 +8,7 @@ use crate::results::{Inclination, MeanStd, RunResult};
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
-const COLUMNS: [Column; 26] = [
+const COLUMNS: [Column; 27] = [
     ("scene", |result| Some(result.scenario.clone()), true),
     ("policy", |result| Some(result.policy_label()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
@@ -18,6 +18,7 @@ const COLUMNS: [Column; 26] = [
     ("coverage", |result| Some(percent(result.coverage, 1)), true),
     ("passage", |result| Some(percent(result.passage?.share, 1)), false),
     ("wall coverage", |result| Some(percent(result.passage?.wall_coverage, 1)), false),
+    ("coverage of outlines", |result| outlines(&result.outline_coverages), false),
     ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
     ("out of plane mm", |result| Some(millimetres(result.out_of_plane.as_ref()?.max_mm)), false),
     ("slips", |result| Some(result.out_of_plane.as_ref()?.slips.to_string()), false),
@@ -50,6 +51,11 @@ pub fn results_table(results: &[RunResult]) -> Table {
 
 fn mean_with_std(figure: MeanStd) -> Option<String> {
     Some(mean_std(figure.mean?, figure.std))
+}
+
+/// The coverage of each outline, if there are several.
+fn outlines(coverages: &[f64]) -> Option<String> {
+    (coverages.len() > 1).then(|| coverages.iter().map(|&coverage| percent(coverage, 1)).collect::<Vec<_>>().join(", "))
 }
 
 /// The time beyond the limit of the inclination, if there is any.

@@ -252,6 +252,7 @@ fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
         "obstacle",
         "platform",
         "retrieval",
+        "search",
         "senses",
         "shaft",
         "sweep",

@@ -93,6 +93,7 @@ mod with_simulation {
         keys(result, "", &mut found);
         let mut expected = [
             "object_coverage",
+            "outline_coverages",
             "out_of_reach",
             "coverage_in_reach",
             "passage",
@@ -150,6 +151,9 @@ mod with_simulation {
             "path_ratio",
             "collisions",
             "collisions.count",
+            "collisions.first_position_m",
+            "collisions.first_s",
+            "collisions.first_state",
             "contracts",
             "collisions.time_s",
             "out_of_plane",

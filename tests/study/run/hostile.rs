@@ -17,7 +17,8 @@ use vibrissa_runtime::machine::{Cause, Program};
 use vibrissa_runtime::signal::{Command, Sample};
 
 /// Every shipped policy.
-const POLICIES: [&str; 9] = ["array", "bang", "baseline", "quick", "reverse", "thesis", "tilted", "two", "vibrissa"];
+const POLICIES: [&str; 9] =
+    ["array", "bang", "baseline", "quick", "reverse", "several", "thesis", "tilted", "vibrissa"];
 
 fn text(path: &str) -> Result<String, String> {
     std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).map_err(|cause| cause.to_string())
@@ -31,7 +32,7 @@ fn program(policy: &str) -> Program {
 
 /// A run of at most so long (s) in `world`; none if the rig cannot be perceived.
 fn run(scene: &Scene, program: Program, world: &mut dyn World, time: f64) -> Option<Run> {
-    let stop = Stop { time, loop_closed: None, reached: None, ..scene.stop };
+    let stop = Stop { time, loop_closed: None, reached: None, succeeded: false, ..scene.stop };
     let control = Control::new(&scene.rig, Arc::new(program)).ok()?;
     let period = 1.0 / scene.rig.sensing.control_rate;
     drive(world, control, &stop, period, &mut Progress(|_: &Trace| ControlFlow::Continue(())))

@@ -86,6 +86,8 @@ fn contacts_a_tenth_of_a_second_apart_are_separate_and_a_crash_is_one() {
     let collisions = Collisions::of(&trace);
     assert_eq!(collisions.count, 3, "3 to 7, 11, 30");
     assert!((collisions.time - 5.0 / 30.0).abs() < 1e-12);
+    let (first, third) = (collisions.first.unwrap(), &trace.ticks[3]);
+    assert_eq!((first.time, first.position, first.state), (third.time, third.body.position, third.state));
     trace.crashed = true;
     assert_eq!(Collisions::of(&trace).count, 4);
     trace.ticks[58].body_touches = true;

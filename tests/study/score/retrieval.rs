@@ -184,7 +184,7 @@ fn a_policy_that_loses_an_edge_and_finds_it_again_is_measured_from_its_last_touc
     let sample = Sample { time: 0.0, body, whiskers: [Reading::default(); MAX_WHISKERS] };
     let bent = |tick| !(60..90).contains(&tick);
     let mut stage = Stage { bent, tick: 0, body, samples: [sample; 10] };
-    let stop = Stop { time: 5.0, loop_closed: None, reached: None, stalled: None };
+    let stop = Stop { time: 5.0, loop_closed: None, reached: None, succeeded: false, stalled: None };
     let run = drive(&mut stage, control, &stop, 1.0 / 30.0, &mut Progress(|_: &Trace| ControlFlow::Continue(())));
     let run = run.unwrap();
     let found = retrievals(&run.trace);

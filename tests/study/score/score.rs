@@ -4,9 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
-use vibrissa::geometry::{Contour, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
+use vibrissa::geometry::{Contour, ContourSet, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
 use vibrissa::scene::{Metric, Truth};
-use vibrissa::score::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, MAX_STEP, Score};
+use vibrissa::score::{
+    COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, MAX_STEP, Score, coverage, object_coverage,
+    outline_coverages,
+};
 use vibrissa_runtime::rig::Rig;
 
 /// How far tips go in a tick at 50 mm/s and 30 Hz (m).
@@ -138,6 +141,21 @@ fn noisy_tips(radius: f64) -> impl Strategy<Value = Vec<Option<Point2>>> {
         let place = |(k, offset)| Some(Point2::from((radius + offset) * unit(k as f64 * TAU / 60.0)));
         offsets.into_iter().enumerate().map(place).collect()
     })
+}
+
+#[test]
+fn each_outline_has_its_own_coverage() {
+    let there = Pose { position: Point2::new(1.0, 0.0), heading: 0.0 };
+    let second = disk(0.1).transformed(&there);
+    let whole = arc_of_tips(0.1, 0.0, TAU, STEP);
+    let half = moved(&arc_of_tips(0.1, 0.0, PI, STEP), &there);
+    let pair = ContourSet::new([disk(0.1), second]).unwrap();
+    let (estimate, pair) = (Estimate::new(&run_with(&[whole, half]).trace), pair);
+    let coverages = outline_coverages(&estimate, &pair);
+    assert!((coverages[0] - 1.0).abs() < 1e-12 && (coverages[1] - 0.5).abs() < 0.01, "{coverages:?}");
+    assert!((coverage(&estimate, &pair) - f64::midpoint(coverages[0], coverages[1])).abs() < 1e-12);
+    let of = |tip| object_coverage(&coverages, tip, &pair).to_bits();
+    assert_eq!([of(Some(Point2::new(1.0, 0.2))), of(None)], [coverages[1].to_bits(), 0]);
 }
 
 #[test]
