@@ -67,7 +67,7 @@
 //! | input texts and their errors | [`scenario`], [`policy`], [`outline`], [`diagnostic`], [`built_in`] |
 //! | scenes and exact geometry | [`scene`], [`solid`], [`geometry`], [`physics`] |
 //! | simulators | [`world`], [`mujoco`], [`quasi_static`] |
-//! | runs and their evaluation | [`trial`], [`run`], [`score`], [`results`], [`inspect`] |
+//! | runs and their evaluation | [`trial`], [`run`], [`score`], [`results`], [`inspect`], `recording` |
 //! | many runs | [`study`], [`family`], [`sweep`], [`tune`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
@@ -123,6 +123,8 @@ pub mod physics;
 pub mod policy;
 mod property;
 pub mod quasi_static;
+#[cfg(feature = "recording")]
+pub mod recording;
 pub mod report;
 pub mod results;
 pub mod run;

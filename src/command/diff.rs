@@ -65,12 +65,12 @@ pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
     Ok(if differences.iter().all(is_equal) { Exit::Done } else { Exit::Unexpected })
 }
 
-fn explained(path: &Path, files: &mut CommandFiles) -> Result<Breakpoints, Failure> {
+pub(super) fn explained(path: &Path, files: &mut CommandFiles) -> Result<Breakpoints, Failure> {
     let source = load::policy_text(path, files)?;
     breakpoints(&load::with_libraries(&source, files), &[])
 }
 
-fn scenes(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Vec<(PathBuf, Loaded<Scene>)>, Failure> {
+pub(super) fn scenes(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Vec<(PathBuf, Loaded<Scene>)>, Failure> {
     if paths.is_empty() {
         let built_in = |file: &TextFile| Ok((file.path.into(), load::built_in_scenario(file)?));
         return SCENARIOS.iter().map(built_in).collect();

@@ -12,6 +12,8 @@ use crate::load::LoadError;
 use crate::mismatch::MismatchError;
 use crate::policy::chart::UnknownState;
 use crate::property::RegressionsError;
+#[cfg(feature = "recording")]
+use crate::recording::{ReadRecordingError, RecordError};
 use crate::report::ChartTooLarge;
 use crate::study::ArrayCalibrationError;
 use crate::study::stress::CaseError;
@@ -169,6 +171,21 @@ pub(super) enum Failure {
     Ended { path: PathBuf, end: f64 },
     #[error("the run cannot be recorded: {0}")]
     Record(#[from] WriteError),
+    #[cfg(feature = "recording")]
+    #[error("the run cannot be recorded: {0}")]
+    RecordRun(#[from] RecordError),
+    #[cfg(feature = "recording")]
+    #[error("{}: {cause}", path.display())]
+    RunRecording { path: PathBuf, cause: ReadRecordingError },
+    #[cfg(feature = "recording")]
+    #[error("--record writes one run, and there are {scenarios} scenarios; give one scenario")]
+    RecordOne { scenarios: usize },
+    #[cfg(feature = "recording")]
+    #[error("{}: it is the recording of a robot, whose steps another policy cannot repeat; leave out --policy", path.display())]
+    OtherPolicy { path: PathBuf },
+    #[cfg(feature = "recording")]
+    #[error("{}: it has no text of its policy, because a compiled machine was recorded; record a run of the policy itself", path.display())]
+    NoRecordedText { path: PathBuf },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
     #[error("the touches cannot be written: {0}; this is a fault of the program, please report it")]
@@ -186,6 +203,13 @@ impl Failure {
     pub(super) fn mismatch(scenario: &Path) -> impl FnOnce(MismatchError) -> Self {
         let scenario = scenario.to_owned();
         |cause| Self::Mismatch { scenario, cause }
+    }
+
+    /// The error of the recording of a simulated run.
+    #[cfg(feature = "recording")]
+    pub(super) fn run_recording(path: &Path) -> impl FnOnce(ReadRecordingError) -> Self {
+        let path = path.to_owned();
+        |cause| Self::RunRecording { path, cause }
     }
 
     pub(super) fn folder(path: &Path) -> impl FnOnce(std::io::Error) -> Self {

@@ -8,7 +8,7 @@ use clap::Args;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use super::run::{RunArguments, TickFile, finish, reports, show, trials_with_texts};
+use super::run::{Prepared, RunArguments, TickFile, finish, prepared_trials, reports, show};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::inspect::{Breakpoints, Inspector};
@@ -39,13 +39,12 @@ impl InspectionOptions {
 /// Runs each trial with an inspector.
 pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Exit, Failure> {
     let options = &arguments.inspection;
-    let trials = trials_with_texts(arguments, files)?;
+    let trials = prepared_trials(arguments, files)?;
     let transition_file = options.transitions.as_ref().map(|path| files.output("--transitions", path)).transpose()?;
-    let plain: Vec<Trial> = trials.iter().map(|(trial, _)| trial.clone()).collect();
-    let reports = reports(&plain, arguments.out.as_deref(), files)?;
+    let reports = reports(trials.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), files)?;
     let mut ticks = TickFile::new(arguments, files)?;
     let (mut results, mut stops, mut lines, mut exit) = (Vec::new(), Vec::new(), String::new(), Exit::Done);
-    for ((trial, text), report) in trials.iter().zip(reports) {
+    for (Prepared { trial, text, .. }, report) in trials.iter().zip(reports) {
         let source = text.as_ref().ok_or_else(|| Failure::NoTextToInspect { name: trial.program.name.clone() })?;
         let policy = breakpoints(source, &options.breakpoints)?;
         let trial = with_program(trial, &policy);
@@ -93,10 +92,6 @@ pub(super) fn breakpoints(source: &Source, texts: &[String]) -> Result<Breakpoin
 
 /// The trial with the program that can be explained. Its parameters have the same values.
 pub(super) fn with_program(trial: &Trial, policy: &Breakpoints) -> Trial {
-    let mut program = policy.explained.program.clone();
-    let parameters = trial.program.parameters.len();
-    for (own, set) in program.initial_registers.iter_mut().zip(&trial.program.initial_registers).take(parameters) {
-        *own = *set;
-    }
+    let program = policy.explained.with_parameters_of(&trial.program);
     Trial { program: Arc::new(program), ..trial.clone() }
 }

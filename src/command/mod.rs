@@ -22,6 +22,7 @@ mod lsp;
 mod man;
 mod merge;
 mod mjcf;
+mod near_misses;
 mod options;
 mod output;
 mod pareto;
@@ -77,6 +78,8 @@ enum Command {
     Compare(compare::CompareArguments),
     /// Find the first tick in which two policies differ, and why
     Diff(diff::DiffArguments),
+    /// List how closely transitions that were not taken came to being taken
+    NearMisses(near_misses::NearMissArguments),
     /// Run a parameter sweep in worker processes. An interrupted sweep can be resumed
     Sweep(sweep::SweepArguments),
     /// Tune parameters of a policy over scenes. An interrupted tuning can be resumed
@@ -147,6 +150,7 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Families(arguments) => families::families(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
         Command::Diff(arguments) => diff::diff(arguments),
+        Command::NearMisses(arguments) => near_misses::near_misses(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Tune(arguments) => tune::tune(arguments),
         Command::Merge(arguments) => merge::merge(arguments),

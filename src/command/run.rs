@@ -7,6 +7,8 @@ use std::time::Instant;
 
 use clap::Args;
 use sha2::Digest;
+#[cfg(feature = "recording")]
+use vibrissa_runtime::machine::Artifact;
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -19,6 +21,8 @@ use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
 use crate::load::{self, GivenMismatch, Loaded};
+#[cfg(feature = "recording")]
+use crate::recording::Recorder;
 use crate::report::results_table;
 use crate::results::{RunResult, tick_lines};
 use crate::run::Run;
@@ -51,6 +55,10 @@ pub(super) struct RunArguments {
     /// Write the perception and the command of every tick into this file, as one line of JSON each
     #[arg(long, value_name = "FILE", conflicts_with = "watch")]
     ticks: Option<PathBuf>,
+    /// Record the run into this MCAP file, for viewers and for `vibrissa replay`. With one scenario
+    #[cfg(feature = "recording")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions"])]
+    record: Option<PathBuf>,
     #[command(flatten)]
     pub(super) inspection: InspectionOptions,
     #[command(flatten)]
@@ -68,12 +76,21 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     if arguments.inspection.is_given() {
         return inspect(arguments, &mut files);
     }
-    let trials = trials(arguments, &mut files)?;
-    let reports = reports(&trials, arguments.out.as_deref(), &mut files)?;
+    let prepared = prepared_trials(arguments, &mut files)?;
+    #[cfg(feature = "recording")]
+    let mut record = record_file(arguments, &mut files)?;
+    let reports = reports(prepared.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), &mut files)?;
     let mut ticks = TickFile::new(arguments, &mut files)?;
-    let (mut results, mut exit) = (Vec::with_capacity(trials.len()), Exit::Done);
-    for (trial, report) in trials.iter().zip(reports) {
-        let finished = run_with_bar(trial)?;
+    let (mut results, mut exit) = (Vec::with_capacity(prepared.len()), Exit::Done);
+    for (prepared, report) in prepared.iter().zip(reports) {
+        let trial = &prepared.trial;
+        #[cfg(feature = "recording")]
+        let finished = match record.take() {
+            Some(file) => recorded(prepared, file)?,
+            None => run_with_bar(trial, &mut ())?,
+        };
+        #[cfg(not(feature = "recording"))]
+        let finished = run_with_bar(trial, &mut ())?;
         let result = finish(trial, &finished, report)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
@@ -84,6 +101,35 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     ticks.write()?;
     show(&results, arguments)?;
     Ok(exit)
+}
+
+/// The file of `--record`, if it is wanted.
+#[cfg(feature = "recording")]
+fn record_file(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Option<Output>, Failure> {
+    if arguments.record.is_some() && arguments.scenarios.len() > 1 {
+        return Err(Failure::RecordOne { scenarios: arguments.scenarios.len() });
+    }
+    Ok(arguments.record.as_ref().map(|path| files.output("--record", path)).transpose()?)
+}
+
+/// Runs a trial and records it.
+#[cfg(feature = "recording")]
+fn recorded(prepared: &Prepared, file: Output) -> Result<TrialResult, Failure> {
+    let Prepared { trial, text, artifact } = prepared;
+    let mut recorder = Recorder::new(trial, artifact, text.clone())?;
+    let finished = run_with_bar(trial, &mut recorder)?;
+    file.write(recorder.finish(&finished.run)?)?;
+    Ok(finished)
+}
+
+/// A trial with the policy that it was made from.
+pub(super) struct Prepared {
+    pub(super) trial: Trial,
+    /// The text of the policy. A compiled machine has none.
+    pub(super) text: Option<Source>,
+    /// The machine. Its parameters are those of its text.
+    #[cfg(feature = "recording")]
+    pub(super) artifact: Artifact,
 }
 
 /// The file of `--ticks`, if it is wanted.
@@ -116,21 +162,18 @@ impl TickFile {
 /// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first
 /// trial runs.
 pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
-    Ok(trials_with_texts(arguments, files)?.into_iter().map(|(trial, _)| trial).collect())
+    Ok(prepared_trials(arguments, files)?.into_iter().map(|prepared| prepared.trial).collect())
 }
 
-/// The [`trials`], each with the text of its policy. A compiled machine has none.
-pub(super) fn trials_with_texts(
-    arguments: &RunArguments,
-    files: &mut CommandFiles,
-) -> Result<Vec<(Trial, Option<Source>)>, Failure> {
+/// The [`trials`], each with its policy.
+pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Prepared>, Failure> {
     let mut warned = BTreeSet::new();
     let mismatch = arguments.mismatch.load(files)?;
     let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, &mismatch, files, &mut warned));
     let trials = trials.collect::<Result<Vec<_>, _>>()?;
     // Reports are named after scenarios.
-    for (index, (trial, _)) in trials.iter().enumerate() {
-        let mut before = trials[..index].iter().map(|(before, _)| before);
+    for (index, Prepared { trial, .. }) in trials.iter().enumerate() {
+        let mut before = trials[..index].iter().map(|before| &before.trial);
         if let Some(first) = before.find(|first| first.scene.name == trial.scene.name) {
             let [first, second] = [first, trial].map(|trial| trial.inputs.scenario.clone());
             return Err(Failure::SameName { first, second, name: trial.scene.name.clone() });
@@ -145,7 +188,7 @@ fn trial(
     mismatch: &GivenMismatch,
     files: &mut CommandFiles,
     warned: &mut BTreeSet<String>,
-) -> Result<(Trial, Option<Source>), Failure> {
+) -> Result<Prepared, Failure> {
     let before = Instant::now();
     let source = load::read(path, files)?;
     let Loaded { value: mut scene, hash: mut scenario_hash } = load::scenario_in(&source, files)?;
@@ -161,14 +204,20 @@ fn trial(
     let world = arguments.world.of(&scene);
     let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash.finalize());
     output::warn_of_rates(path, &scene.rig, &policy.artifact.program);
-    let trial = Trial { world, seed, ..Trial::new(scene, Arc::new(policy.artifact.program)) };
+    let text = policy.text.map(|text| text.source);
+    let trial = Trial { world, seed, ..Trial::new(scene, Arc::new(policy.artifact.program.clone())) };
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
-    Ok((trial, policy.text.map(|text| text.source)))
+    Ok(Prepared {
+        trial,
+        text,
+        #[cfg(feature = "recording")]
+        artifact: policy.artifact,
+    })
 }
 
 /// Makes the directory for reports, and returns the files of the reports in it.
-pub(super) fn reports(
-    trials: &[Trial],
+pub(super) fn reports<'t>(
+    trials: impl Iterator<Item = &'t Trial>,
     directory: Option<&Path>,
     files: &mut CommandFiles,
 ) -> Result<Vec<Option<ReportFiles>>, Failure> {
@@ -177,7 +226,7 @@ pub(super) fn reports(
         let report = directory.map(|directory| ReportFiles::new(&directory.join(&trial.scene.name), files));
         Ok(report.transpose()?)
     };
-    trials.iter().map(report).collect()
+    trials.map(report).collect()
 }
 
 /// Prints the expectations that do not hold, and writes the report.

@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
 use crate::family::FamilyRun;
-use crate::inspect::{PolicyDifference, StopRecord, TransitionLine, ViolationLine};
+use crate::inspect::{NearMiss, PolicyDifference, StopRecord, TransitionLine, ViolationLine};
 use crate::mujoco::Pruning;
 use crate::results::{Document, DriveResult, ReplayResult, RunResult, TickLine, Versioned};
 use crate::study::bench::BenchRow;
@@ -41,6 +41,7 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<ViolationLine>(),
         schema::<StopRecord>(),
         schema::<PolicyDifference>(),
+        schema::<NearMiss>(),
         schema::<BenchRow>(),
         schema::<TimingRow>(),
         schema::<WorldsRow>(),

@@ -192,7 +192,7 @@ fn run_test(
     report: Option<Report>,
     json: bool,
 ) -> Result<Tested, Failure> {
-    let finished = run_with_bar(trial)?;
+    let finished = run_with_bar(trial, &mut ())?;
     let result = trial.document(&finished);
     let faults = violations(test, &trial.program, &finished);
     if let Some(report) = report {

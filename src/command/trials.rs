@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
+use vibrissa_runtime::machine::{Observer, TransitionId, TriedGuard, ViolatedContract};
+use vibrissa_runtime::signal::Sample;
 
 use super::failure::Failure;
 use super::options::Jobs;
@@ -13,7 +15,7 @@ use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::report::{picture, retrieval_picture};
 use crate::results::{Collisions, Document, Failsafes, Inclination, RunResult};
-use crate::run::Trace;
+use crate::run::{Trace, Watcher};
 use crate::scene::Violation;
 use crate::trial::{Inputs, Trial, TrialResult, in_parallel, short_hash};
 
@@ -52,7 +54,7 @@ pub(super) fn finished(trial: &Trial, is_drawn: impl Fn(&[Violation]) -> bool) -
     Ok(Finished { result: trial.document(&result), violations: result.violations, picture })
 }
 
-fn drawn(trial: &Trial, result: &TrialResult) -> String {
+pub(super) fn drawn(trial: &Trial, result: &TrialResult) -> String {
     picture(&trial.scene, &trial.policy_label(), &result.run, &result.score)
 }
 
@@ -66,15 +68,15 @@ pub(super) fn inputs(path: &Path, scenario_hash: &[u8], policy_hash: &[u8]) -> I
     }
 }
 
-/// Runs a trial and shows a progress bar on standard error if that is a terminal.
-pub(super) fn run_with_bar(trial: &Trial) -> Result<TrialResult, Failure> {
+/// Runs a trial under a watcher, and shows a progress bar on standard error if that is a terminal.
+pub(super) fn run_with_bar(trial: &Trial, watcher: &mut impl Watcher) -> Result<TrialResult, Failure> {
     let bar = ProgressBar::new(milliseconds(trial.scene.stop.time));
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} % of at most {prefix}, {elapsed}") {
         bar.set_style(style);
     }
     bar.set_message(printable(&trial.scene.name).into_owned());
     bar.set_prefix(format!("{} s", trial.scene.stop.time));
-    let result = run_each_second(trial, |trace| {
+    let result = run_each_second(trial, watcher, |trace| {
         bar.set_position(milliseconds(seconds(trace)));
         ControlFlow::Continue(())
     });
@@ -82,20 +84,54 @@ pub(super) fn run_with_bar(trial: &Trial) -> Result<TrialResult, Failure> {
     result
 }
 
-/// Runs a trial. `each_second` receives the trace after each simulated second, and may stop the run.
+/// Runs a trial under a watcher. `each_second` receives the trace after each simulated second, and may stop the run.
 pub(super) fn run_each_second(
     trial: &Trial,
-    mut each_second: impl FnMut(&Trace) -> ControlFlow<()>,
+    watcher: &mut impl Watcher,
+    each_second: impl FnMut(&Trace) -> ControlFlow<()>,
 ) -> Result<TrialResult, Failure> {
-    let mut next = 1.0;
-    let progress = |trace: &Trace| {
-        if seconds(trace) < next {
+    let mut watcher = EachSecond { watcher, receive: each_second, next: 1.0 };
+    trial.run_watched(&mut watcher).map_err(Failure::execute(trial))
+}
+
+/// A watcher, and a function that receives the trace after each simulated second.
+struct EachSecond<'w, W, F> {
+    watcher: &'w mut W,
+    receive: F,
+    next: f64,
+}
+
+impl<W: Watcher, F> Observer for EachSecond<'_, W, F> {
+    fn guard(&mut self, tried: &TriedGuard<'_>) {
+        self.watcher.guard(tried);
+    }
+
+    fn taken(&mut self, transition: TransitionId) {
+        self.watcher.taken(transition);
+    }
+
+    fn violated(&mut self, violated: &ViolatedContract<'_>) {
+        self.watcher.violated(violated);
+    }
+
+    fn not_finite(&mut self, state: usize, registers: &[f64]) {
+        self.watcher.not_finite(state, registers);
+    }
+}
+
+impl<W: Watcher, F: FnMut(&Trace) -> ControlFlow<()>> Watcher for EachSecond<'_, W, F> {
+    fn before_tick(&mut self, samples: &[Sample]) {
+        self.watcher.before_tick(samples);
+    }
+
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        self.watcher.after_tick(trace)?;
+        if seconds(trace) < self.next {
             return ControlFlow::Continue(());
         }
-        next = seconds(trace).floor() + 1.0;
-        each_second(trace)
-    };
-    trial.run_with(progress).map_err(Failure::execute(trial))
+        self.next = seconds(trace).floor() + 1.0;
+        (self.receive)(trace)
+    }
 }
 
 /// The simulated time (s).

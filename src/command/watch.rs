@@ -54,10 +54,10 @@ fn run_all(
     files: &mut CommandFiles,
     watch: &Watch,
 ) -> Result<Vec<RunResult>, Failure> {
-    let reports = run::reports(trials, arguments.out.as_deref(), files)?;
+    let reports = run::reports(trials.iter(), arguments.out.as_deref(), files)?;
     let run = |(trial, report): (&Trial, _)| {
         let mut printed = Ok(());
-        let finished = run_each_second(trial, |trace| {
+        let finished = run_each_second(trial, &mut (), |trace| {
             printed = print_second(trial, trace);
             if printed.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });

@@ -11,7 +11,7 @@ use crate::run::Monitor;
 use crate::trial::{ExecuteError, Trial};
 
 use super::breakpoint::Breakpoints;
-use super::inspector::{Inspector, from_outside};
+use super::explained_control::ExplainedControl;
 use super::records::{GuardRecord, TransitionLine};
 
 /// The comparison of two policies on the samples of a run of the first one.
@@ -73,78 +73,80 @@ pub fn first_difference(
     policies: [&Breakpoints; 2],
     second: &Trial,
 ) -> Result<PolicyDifference, ExecuteError> {
-    let scenario = trial.scene.name.clone();
+    let scenario = trial.scene.name.as_str();
     let mut world = trial.world()?;
-    let (mut own, mut other) = (Side::new(trial, policies[0], &scenario)?, Side::new(second, policies[1], &scenario)?);
+    let [own, other] = [trial, second].map(Trial::control);
+    let mut pair = PolicyPair::new([(own?, policies[0]), (other?, policies[1])], scenario);
     let period = trial.scene.rig.sensing.control_rate.recip();
-    let mut monitor = Monitor::new(&own.control, &trial.scene.stop, period);
-    let (mut command, mut equal_ticks, mut states_differ_from) = (Command::STOP, 0, None);
-    let first = loop {
-        let Ok(samples) = world.advance(&command) else { break None };
-        let (next, tick) = own.tick(samples);
-        let (others, _) = other.tick(samples);
-        if own.states != other.states {
-            states_differ_from.get_or_insert(equal_ticks);
-        }
-        if bits(next) != bits(others) {
-            let (first, second) = (own.record(next), other.record(others));
-            break Some(DifferentTick { tick: equal_ticks, time_s: own.control.perception().time(), first, second });
-        }
-        equal_ticks += 1;
+    let mut monitor = Monitor::new(pair.first(), &trial.scene.stop, period);
+    let mut command = Command::STOP;
+    while let Ok(samples) = world.advance(&command)
+        && let Some((next, tick)) = pair.tick(samples)
+    {
         command = next;
-        if monitor.observe(&own.control, command, &tick, world.as_ref()).is_some() {
-            break None;
-        }
-    };
-    Ok(PolicyDifference { scenario, equal_ticks, states_differ_from, first })
-}
-
-/// One of the policies.
-struct Side<'b> {
-    control: Box<Control>,
-    inspector: Inspector<'b>,
-    states: Vec<String>,
-}
-
-impl<'b> Side<'b> {
-    fn new(trial: &Trial, policy: &'b Breakpoints, scenario: &str) -> Result<Self, ExecuteError> {
-        let inspector = Inspector::new(policy, scenario);
-        Ok(Self { control: Box::new(trial.control()?), inspector, states: Vec::new() })
-    }
-
-    fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
-        self.inspector.begin_tick();
-        let ticked = self.control.tick_observed(samples, &mut self.inspector);
-        self.states = names(&self.control);
-        let machine = self.control.machine();
-        let state = (!self.states.is_empty()).then(|| machine.state());
-        self.inspector.end_tick(self.control.perception().time(), state);
-        ticked
-    }
-
-    fn record(&self, command: Command) -> PolicyTick {
-        PolicyTick {
-            policy: self.control.machine().program().name.clone(),
-            states: self.states.clone(),
-            velocity_m_s: command.velocity_world.into(),
-            yaw_rate_rad_s: command.yaw_rate,
-            last: self.inspector.transitions().last().cloned(),
-            guards: self.inspector.guards(),
+        if monitor.observe(pair.first(), command, &tick, world.as_ref()).is_some() {
+            break;
         }
     }
+    Ok(pair.difference)
 }
 
-/// The names of the active states, from the outermost to the innermost.
-fn names(control: &Control) -> Vec<String> {
-    let machine = control.machine();
-    if machine.failure().is_some() || machine.success().is_some() {
-        return Vec::new();
+/// Two policies with the same samples.
+#[derive(Debug)]
+pub struct PolicyPair<'b> {
+    first: ExplainedControl<'b>,
+    second: ExplainedControl<'b>,
+    /// The comparison of the ticks until now.
+    pub difference: PolicyDifference,
+}
+
+impl<'b> PolicyPair<'b> {
+    /// The control loops of both policies, at the beginning of a run in the scenario with this name.
+    #[must_use]
+    pub fn new([first, second]: [(Control, &'b Breakpoints); 2], scenario: &str) -> Self {
+        let side = |(control, policy): (Control, &'b Breakpoints)| ExplainedControl::new(control, policy, scenario);
+        let difference =
+            PolicyDifference { scenario: scenario.to_owned(), equal_ticks: 0, states_differ_from: None, first: None };
+        Self { first: side(first), second: side(second), difference }
     }
-    let program = machine.program();
-    let states = from_outside(program, machine.state()).into_iter();
-    states.map(|state| program.states[state].name.to_string()).collect()
+
+    /// The control loop of the first policy.
+    #[must_use]
+    pub fn first(&self) -> &Control {
+        self.first.control()
+    }
+
+    /// Executes a tick of both policies. The result is that of the first one, or `None` if their commands differ.
+    pub fn tick(&mut self, samples: &[Sample]) -> Option<(Command, Tick)> {
+        let (command, tick) = self.first.tick(samples);
+        let (others, _) = self.second.tick(samples);
+        let PolicyDifference { equal_ticks, states_differ_from, first, .. } = &mut self.difference;
+        if self.first.states() != self.second.states() {
+            states_differ_from.get_or_insert(*equal_ticks);
+        }
+        if bits(command) != bits(others) {
+            let time_s = self.first.control().perception().time();
+            let (own, other) = (policy_tick(&self.first, command), policy_tick(&self.second, others));
+            *first = Some(DifferentTick { tick: *equal_ticks, time_s, first: own, second: other });
+            return None;
+        }
+        *equal_ticks += 1;
+        Some((command, tick))
+    }
 }
 
+fn policy_tick(policy: &ExplainedControl<'_>, command: Command) -> PolicyTick {
+    PolicyTick {
+        policy: policy.control().machine().program().name.clone(),
+        states: policy.states().to_vec(),
+        velocity_m_s: command.velocity_world.into(),
+        yaw_rate_rad_s: command.yaw_rate,
+        last: policy.transitions().last().cloned(),
+        guards: policy.guards(),
+    }
+}
+
+/// The bits of a command.
 fn bits(command: Command) -> [u64; 3] {
     [command.velocity_world.x, command.velocity_world.y, command.yaw_rate].map(f64::to_bits)
 }

@@ -7,7 +7,7 @@ use crate::scene::{Outcome, Stop};
 use crate::world::World;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Observer;
-use vibrissa_runtime::signal::Command;
+use vibrissa_runtime::signal::{Command, Sample};
 
 use super::contract::ContractRecord;
 use super::monitor::Monitor;
@@ -38,8 +38,20 @@ pub struct Run {
 
 /// Watches a run, and may stop it.
 pub trait Watcher: Observer {
+    /// Receives the samples of the control period before every tick, oldest first.
+    fn before_tick(&mut self, samples: &[Sample]) {
+        let _ = samples;
+    }
+
     /// Receives the trace after every tick.
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()>;
+}
+
+/// Watches nothing.
+impl Watcher for () {
+    fn after_tick(&mut self, _: &Trace) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 /// A watcher that receives the trace alone.
@@ -69,6 +81,7 @@ pub fn drive(
             Ok(samples) => samples,
             Err(fault) => break monitor.crashed(&fault),
         };
+        watcher.before_tick(samples);
         let before_tick = Instant::now();
         let (next, ticked) = control.tick_observed(samples, watcher);
         monitor.tick_took(before_tick.elapsed());

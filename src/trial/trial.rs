@@ -190,7 +190,7 @@ impl Trial {
     }
 
     /// The names and hashes that identify the trial.
-    fn identity(&self) -> Identity {
+    pub(crate) fn identity(&self) -> Identity {
         Identity {
             scenario: self.scene.name.clone(),
             policy: self.program.name.clone(),

@@ -33,7 +33,7 @@ Commands:
             --count N      only the first N scenes of each family
             --program FILE use this program instead of building it
   pieces  remove each part of vibrissa.fsm in turn and write what it is worth into docs/results/pieces.md; goes on where it was stopped
-            --count N      run N scenes of each family (12)
+            --count N      run N scenes of each family (5)
             --program FILE use this program instead of building it
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others

@@ -87,6 +87,15 @@ impl Explained {
         id.state.map_or(Some(&self.contracts), |state| self.contracts_of_states.get(state))?.get(id.index)
     }
 
+    /// The program with the values that the parameters of a program of the same policy have.
+    #[must_use]
+    pub fn with_parameters_of(&self, other: &Program) -> Program {
+        let mut program = self.program.clone();
+        let values = other.initial_registers.iter().take(other.parameters.len());
+        program.initial_registers.iter_mut().zip(values).for_each(|(own, value)| *own = *value);
+        program
+    }
+
     /// A transition by its identifier.
     #[must_use]
     pub fn transition(&self, id: TransitionId) -> Option<&ExplainedTransition> {

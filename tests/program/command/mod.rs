@@ -22,10 +22,13 @@ mod library;
 mod mismatch;
 #[cfg(target_os = "linux")]
 mod names;
+mod near_misses;
 pub(crate) mod program;
 mod property;
 mod recording;
 mod run;
+#[cfg(feature = "recording")]
+mod run_recording;
 pub(crate) mod schema;
 mod stress;
 #[cfg(feature = "sim")]

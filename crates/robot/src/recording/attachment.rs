@@ -4,9 +4,11 @@ use super::error::ReadError;
 
 /// An attachment. The library's own parser panics if the length of the record is damaged.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Attachment {
-    pub(super) name: String,
-    pub(super) data: Vec<u8>,
+pub struct Attachment {
+    /// Its name.
+    pub name: String,
+    /// Its content.
+    pub data: Vec<u8>,
 }
 
 /// Bytes of the two times.

@@ -1,5 +1,7 @@
 //! The channels of a recording.
 
+use super::records::FileMessage;
+
 /// A channel of a recording. Its messages are JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Channel {
@@ -57,14 +59,6 @@ impl Channel {
     }
 }
 
-/// An encoded message.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Message {
-    pub(super) channel: Channel,
-    /// Number of the message in its channel, from 0 at the start of the program. A gap is a loss.
-    pub(super) sequence: u32,
-    /// Time since the start of the program (ns).
-    pub(super) time_ns: u64,
-    /// The JSON text.
-    pub(super) data: Vec<u8>,
-}
+/// An encoded message. Its sequence number counts within the channel, from 0 at the start of the program. A gap is a loss. Its time
+/// is counted from the start of the program, and its content is JSON.
+pub(super) type Message = FileMessage<Channel>;

@@ -28,6 +28,7 @@ mod program_file;
 mod recorder;
 #[expect(clippy::module_inception, reason = "the module is named after its noun")]
 mod recording;
+mod records;
 mod replay;
 mod replay_task;
 mod setup;
@@ -37,6 +38,7 @@ mod tests;
 mod tick_message;
 mod writer;
 
+pub use attachment::Attachment;
 pub use difference::Difference;
 pub use error::{KeepError, ReadError, WriteError};
 pub use keep::{Kept, first_stop, keep};
@@ -44,6 +46,7 @@ pub use part::Part;
 pub use program_file::program_sha256;
 pub use recorder::{Recorder, Warn};
 pub use recording::Recording;
+pub use records::{FileMessage, FileRecord, Records};
 pub use replay::{Replayed, replay};
-pub use setup::{Origin, Setup, SetupError};
+pub use setup::{Origin, Setup, SetupError, sha256};
 pub use writer::RecordingWriter;

@@ -3,41 +3,19 @@
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
 
-use mcap::records::{Record, op};
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use mcap::{McapError, parse_record};
-
 use super::attachment::Attachment;
 use super::channel::{Channel, Message};
 use super::error::ReadError;
-use super::part_writer::METADATA;
+use super::records::{FileRecord, Records};
 use super::setup::{self, FORMAT, KIND, Setup, sha256};
-
-/// Largest record (bytes) that is read. A damaged length must not use up the memory.
-const RECORD_LIMIT: usize = 64 << 20;
 
 /// A file of a recording. It is read up to its end, or up to the last complete chunk if its end is missing.
 pub struct Part<R> {
     setup: Setup,
-    items: Items<R>,
+    items: Records<R, Channel>,
     identity: BTreeMap<String, String>,
     /// The first message, which was read to find the end of the header.
     first: Option<Message>,
-}
-
-/// The records of a file that matter.
-struct Items<R> {
-    input: R,
-    mcap: LinearReader,
-    channels: HashMap<u16, Channel>,
-    is_cut: bool,
-}
-
-/// A record that matters.
-enum Item {
-    Identity(BTreeMap<String, String>),
-    Attachment(Attachment),
-    Message(Message),
 }
 
 impl<R: Read> Part<R> {
@@ -46,25 +24,20 @@ impl<R: Read> Part<R> {
     /// # Errors
     /// [`ReadError`] if it is no recording that this program can replay.
     pub fn open(input: R) -> Result<Self, ReadError> {
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_validate_data_section_crc(true)
-            .with_record_length_limit(RECORD_LIMIT);
-        let mcap = LinearReader::new_with_options(options);
-        let mut items = Items { input, mcap, channels: HashMap::new(), is_cut: false };
+        let mut items = Records::new(input, Channel::of);
         let (mut identity, mut attachments, mut first) = (None, HashMap::new(), None);
         while first.is_none()
-            && let Some(item) = items.next_item()?
+            && let Some(item) = items.next_record()?
         {
             match item {
-                Item::Identity(entries) => identity = Some(entries),
-                Item::Attachment(Attachment { name, data }) => {
+                FileRecord::Identity(entries) => identity = Some(entries),
+                FileRecord::Attachment(Attachment { name, data }) => {
                     attachments.insert(name, data);
                 }
-                Item::Message(message) => first = Some(message),
+                FileRecord::Message(message) => first = Some(message),
             }
         }
-        let identity = match (identity, items.is_cut) {
+        let identity = match (identity, items.is_cut()) {
             (Some(identity), _) => identity,
             (None, true) => return Err(ReadError::Empty),
             (None, false) => return Err(ReadError::Foreign),
@@ -86,7 +59,7 @@ impl<R: Read> Part<R> {
 
     /// True if the end of the file is missing. It is known once all messages have been read.
     pub(super) fn is_cut(&self) -> bool {
-        self.items.is_cut
+        self.items.is_cut()
     }
 
     /// The next message.
@@ -94,8 +67,8 @@ impl<R: Read> Part<R> {
         if let Some(message) = self.first.take() {
             return Ok(Some(message));
         }
-        while let Some(item) = self.items.next_item()? {
-            if let Item::Message(message) = item {
+        while let Some(item) = self.items.next_record()? {
+            if let FileRecord::Message(message) = item {
                 return Ok(Some(message));
             }
         }
@@ -130,51 +103,4 @@ fn read_setup(
     let configuration = take(setup::CONFIGURATION.0)?.ok_or(ReadError::Empty)?;
     let text = take(setup::CONFIGURATION_TEXT.0)?.and_then(|text| String::from_utf8(text).ok());
     Ok(Setup::from_attachments(machine, configuration, text)?)
-}
-
-impl<R: Read> Items<R> {
-    /// The next record that matters.
-    fn next_item(&mut self) -> Result<Option<Item>, ReadError> {
-        while !self.is_cut {
-            let (opcode, data) = match self.mcap.next_event() {
-                None => return Ok(None),
-                Some(Ok(LinearReadEvent::ReadRequest(count))) => {
-                    let read = self.input.read(self.mcap.insert(count))?;
-                    self.mcap.notify_read(read);
-                    continue;
-                }
-                Some(Ok(LinearReadEvent::Record { opcode, data })) => (opcode, data),
-                Some(Err(McapError::UnexpectedEof)) => {
-                    self.is_cut = true;
-                    return Ok(None);
-                }
-                Some(Err(error)) => return Err(error.into()),
-            };
-            match opcode {
-                op::ATTACHMENT => return Ok(Some(Item::Attachment(Attachment::parse(data)?))),
-                op::METADATA | op::CHANNEL | op::MESSAGE => {}
-                _ => continue,
-            }
-            match parse_record(opcode, data)? {
-                Record::Metadata(metadata) if metadata.name == METADATA => {
-                    return Ok(Some(Item::Identity(metadata.metadata)));
-                }
-                Record::Channel(channel) => {
-                    if let Some(known) = Channel::of(&channel.topic) {
-                        self.channels.insert(channel.id, known);
-                    }
-                }
-                Record::Message { header, data } => {
-                    // Another program may have added channels.
-                    if let Some(&channel) = self.channels.get(&header.channel_id) {
-                        let data = data.into_owned();
-                        let message = Message { channel, sequence: header.sequence, time_ns: header.log_time, data };
-                        return Ok(Some(Item::Message(message)));
-                    }
-                }
-                _ => {}
-            }
-        }
-        Ok(None)
-    }
 }

@@ -1,0 +1,186 @@
+//! `vibrissa near-misses`
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use sha2::Digest;
+
+use super::diff::scenes;
+use super::exit::Exit;
+use super::failure::Failure;
+use super::inspect::breakpoints;
+use super::options::{Format, Jobs, MismatchOptions, Settings, WorldOptions};
+use super::output;
+use super::progress::Progress;
+use super::trials::{drawn, inputs, make_directory};
+use crate::built_in::DEFAULT_POLICY;
+use crate::diagnostic::Source;
+use crate::file::{CommandFiles, Output};
+use crate::inspect::{Breakpoints, NearMiss, NearMisses};
+use crate::load::{self, Loaded};
+use crate::report::near_miss_table;
+use crate::sweep::Plan;
+use crate::trial::{ExecuteError, Trial, in_parallel};
+
+const EXAMPLE: &str = "Examples:\n  vibrissa near-misses --policy mine.fsm --out out\n  vibrissa near-misses --sweep sweeps/corners.yaml\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The arguments of `vibrissa near-misses`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(super) struct NearMissArguments {
+    /// Scenarios. Without any, those of the bench
+    #[arg(value_name = "SCENARIO", conflicts_with = "sweep")]
+    scenarios: Vec<PathBuf>,
+    /// Run all runs of this sweep instead, under its own policies
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["policy", "settings", "world"])]
+    sweep: Option<PathBuf>,
+    /// Policy. The default is `vibrissa.fsm`
+    #[arg(long, value_name = "FILE")]
+    policy: Option<PathBuf>,
+    #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
+    world: WorldOptions,
+    #[command(flatten)]
+    mismatch: MismatchOptions,
+    /// Write the list, and a picture of every run in it, into this directory
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Number of near misses of each policy that are printed, the closest ones
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    count: usize,
+    #[command(flatten)]
+    format: Format,
+    #[command(flatten)]
+    jobs: Jobs,
+}
+
+/// The runs of a policy.
+struct PolicyRuns {
+    policy: Breakpoints,
+    /// Each trial with its name. The trials have the program that can be explained.
+    trials: Vec<(String, Trial)>,
+}
+
+pub(super) fn near_misses(arguments: &NearMissArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let all = match &arguments.sweep {
+        Some(path) => of_sweep(path, arguments, &mut files)?,
+        None => vec![of_scenarios(arguments, &mut files)?],
+    };
+    make_directory(arguments.out.as_deref())?;
+    let mut listed = Vec::new();
+    let mut progress = Progress::new(all.iter().map(|runs| runs.trials.len()).sum());
+    for runs in &all {
+        let mut misses = runs.run(arguments.jobs, &mut progress)?;
+        misses.truncate(arguments.count);
+        if let Some(directory) = &arguments.out {
+            runs.draw(&misses, directory, &mut files)?;
+        }
+        listed.extend(misses);
+    }
+    progress.finish();
+    if let Some(directory) = &arguments.out {
+        let file = files.output("--out", &directory.join("near-misses.json"))?;
+        file.write(output::list(&listed)?)?;
+    }
+    output::documents(arguments.format, &listed, || [near_miss_table(&listed)])?;
+    Ok(Exit::Done)
+}
+
+impl PolicyRuns {
+    /// Runs all trials. The result is the near misses of all of them together, the closest first.
+    fn run(&self, jobs: Jobs, progress: &mut Progress) -> Result<Vec<NearMiss>, Failure> {
+        let numbered: Vec<(usize, &(String, Trial))> = self.trials.iter().enumerate().collect();
+        let run = |(number, (name, trial)): &(usize, &(String, Trial))| {
+            let mut misses = NearMisses::new(&self.policy, *number, name);
+            trial.run_watched(&mut misses)?;
+            misses.end_run();
+            Ok::<_, ExecuteError>((*number, misses))
+        };
+        let done = |result: &Result<(usize, NearMisses<'_>), ExecuteError>| {
+            if let Some((name, _)) = result.as_ref().ok().and_then(|(number, _)| self.trials.get(*number)) {
+                progress.done(name);
+            }
+        };
+        let mut together: Option<NearMisses<'_>> = None;
+        for (result, (_, trial)) in in_parallel(&numbered, jobs.threads(), run, done).into_iter().zip(&self.trials) {
+            let (_, misses) = result.map_err(Failure::execute(trial))?;
+            match &mut together {
+                Some(together) => together.add(misses),
+                None => together = Some(misses),
+            }
+        }
+        Ok(together.map(|misses| misses.list()).unwrap_or_default())
+    }
+
+    /// Draws every run that has one of the near misses.
+    fn draw(&self, misses: &[NearMiss], directory: &Path, files: &mut CommandFiles) -> Result<(), Failure> {
+        let mut numbers: Vec<usize> = misses.iter().map(|miss| miss.run).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        for number in numbers {
+            let Some((name, trial)) = self.trials.get(number) else { continue };
+            let name = format!("{}-{name}.svg", self.policy.explained.program.name);
+            let file: Output = files.output("--out", &directory.join(name))?;
+            let result = trial.run().map_err(Failure::execute(trial))?;
+            file.write(drawn(trial, &result))?;
+        }
+        Ok(())
+    }
+}
+
+/// The runs of the bench or of scenarios.
+fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Result<PolicyRuns, Failure> {
+    let loaded = match &arguments.policy {
+        Some(path) => load::policy(path, files)?,
+        None => load::built_in_policy(&DEFAULT_POLICY)?,
+    };
+    output::warnings(&loaded.value);
+    let Loaded { value: loaded, hash } = arguments.settings.of(loaded)?;
+    let source = loaded.text.as_ref().map(|text| &text.source);
+    let policy = explained(source, &loaded.artifact.program.name)?;
+    let program = Arc::new(policy.explained.with_parameters_of(&loaded.artifact.program));
+    let mismatch = arguments.mismatch.load(files)?;
+    let mut trials = Vec::new();
+    for (path, Loaded { value: mut scene, hash: mut scenario_hash }) in scenes(&arguments.scenarios, files)? {
+        mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
+        let world = arguments.world.of(&scene);
+        let inputs = inputs(&path, &scenario_hash.finalize(), &hash.clone().finalize());
+        let name = scene.name.clone();
+        trials.push((name, Trial { world, inputs, ..Trial::new(scene, Arc::clone(&program)) }));
+    }
+    Ok(PolicyRuns { policy, trials })
+}
+
+/// The runs of a sweep, by policy.
+fn of_sweep(path: &Path, arguments: &NearMissArguments, files: &mut CommandFiles) -> Result<Vec<PolicyRuns>, Failure> {
+    let plan = Plan::read(path, true, arguments.mismatch.load(files)?, files)?;
+    plan.check(|note| output::message(format_args!("{note}")))?;
+    let mut all = Vec::new();
+    for (index, loaded) in plan.analysed_policies(files)?.into_iter().enumerate() {
+        let source = loaded.text.as_ref().map(|text| &text.source);
+        let policy = explained(source, &loaded.artifact.program.name)?;
+        let mut trials = Vec::new();
+        for run in plan.sweep.runs().filter(|run| run.policy == index) {
+            let trial = plan.trial(&run)?;
+            let program = Arc::new(policy.explained.with_parameters_of(&trial.program));
+            trials.push((file_name(&run.key()), Trial { program, ..trial }));
+        }
+        all.push(PolicyRuns { policy, trials });
+    }
+    Ok(all)
+}
+
+/// A policy that can be explained. A compiled machine has no text.
+fn explained(source: Option<&Source>, name: &str) -> Result<Breakpoints, Failure> {
+    breakpoints(source.ok_or_else(|| Failure::NoTextToInspect { name: name.to_owned() })?, &[])
+}
+
+/// The key of a run as a part of a file's name.
+fn file_name(key: &str) -> String {
+    key.chars()
+        .map(|letter| if letter.is_ascii_alphanumeric() || "-.".contains(letter) { letter } else { '_' })
+        .collect()
+}

@@ -1,0 +1,333 @@
+//! What viewers draw: the scene, the body, its whiskers and the recorded contour, as messages of Foxglove.
+//!
+//! Foxglove and Lichtblick draw `SceneUpdate`. Rerun draws transforms, poses and clouds of points. A recording has both.
+
+use foxglove::bytes::Bytes;
+use foxglove::messages::packed_element_field::NumericType;
+use foxglove::messages::{
+    Color, FrameTransform, LinePrimitive, PackedElementField, Point3, PointCloud, Pose, PoseInFrame, Quaternion,
+    SceneEntity, SceneUpdate, Timestamp, Vector3, line_primitive,
+};
+use vibrissa_runtime::rig::Rig;
+
+use crate::geometry::{Contour, ContourSet, Piece, Point2, unit};
+use crate::run::TickRecord;
+
+/// The frame of the scene.
+const WORLD: &str = "world";
+/// The frame of the platform: its origin is the centre of mass, and its x axis the heading.
+const BODY: &str = "body";
+
+/// The largest distance (m) of a drawn chord from an arc.
+const CHORD_ERROR: f64 = 2e-4;
+/// Drawn coordinates are multiples of this (m), 8 µm. Further digits cannot be seen and need space.
+const RESOLUTION: f64 = 1.0 / 131_072.0;
+/// The distance (m) of the points of an outline.
+const POINT_DISTANCE: f64 = 3e-3;
+/// The number of points on a drawn whisker.
+const SHAFT_POINTS: u32 = 9;
+
+/// The pose of what is drawn in its own frame.
+const ORIGIN: Pose = Pose {
+    position: Some(Vector3 { x: 0.0, y: 0.0, z: 0.0 }),
+    orientation: Some(Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 }),
+};
+
+const OBJECT: Color = Color { r: 0.45, g: 0.5, b: 0.56, a: 1.0 };
+const PLATFORM: Color = Color { r: 0.2, g: 0.35, b: 0.6, a: 1.0 };
+const WHISKER: Color = Color { r: 0.85, g: 0.45, b: 0.1, a: 1.0 };
+
+/// Makes the messages of a run.
+#[derive(Debug)]
+pub(super) struct View {
+    rig: Rig,
+    /// For each whisker of the trace, its index in the rig.
+    whiskers: Vec<usize>,
+    /// The recorded tips.
+    contour: Vec<Point2>,
+    /// The number of points of the last message of the contour.
+    sent: usize,
+}
+
+impl View {
+    /// The view of a run whose trace has the whiskers with these names.
+    pub(super) fn new(rig: Rig, names: &[String]) -> Self {
+        let index = |name: &String| rig.whiskers.iter().position(|whisker| whisker.name == *name);
+        let whiskers = names.iter().filter_map(index).collect();
+        Self { rig, whiskers, contour: Vec::new(), sent: 0 }
+    }
+
+    /// The outlines of all objects.
+    pub(super) fn scene(surfaces: &ContourSet) -> SceneUpdate {
+        let outline = |contour: &Contour| line(&contour_points(contour), contour.is_closed(), 2e-3, OBJECT);
+        update("scene", WORLD, 0.0, surfaces.contours().map(outline).collect())
+    }
+
+    /// The outlines of all objects as points, for viewers that draw no lines.
+    pub(super) fn objects(surfaces: &ContourSet) -> PointCloud {
+        let points = |contour: &Contour| {
+            let length = contour.length();
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "clamped to a small positive number"
+            )]
+            let count = (length / POINT_DISTANCE).clamp(1.0, 1e5) as u32;
+            let point = |k: u32| contour.point_at(length * f64::from(k) / f64::from(count));
+            (0..=count).map(point).collect::<Vec<_>>()
+        };
+        cloud(&surfaces.contours().flat_map(points).collect::<Vec<_>>(), 0.0)
+    }
+
+    /// The outline of the platform.
+    pub(super) fn platform(&self) -> SceneUpdate {
+        let outline = self.rig.platform.outline_body();
+        update("platform", BODY, 0.0, vec![line(&outline, true, 2e-3, PLATFORM)])
+    }
+
+    /// The whiskers of a tick. Their shape is the cubic curve from the base to the true tip: it begins in the direction of the
+    /// base, and is not bent at its end, as a uniform shaft under a small force at its tip.
+    pub(super) fn whiskers(&self, tick: &TickRecord) -> SceneUpdate {
+        let shafts = self.whiskers.iter().enumerate().filter_map(|(index, &in_rig)| {
+            let whisker = self.rig.whiskers.get(in_rig)?;
+            let tip = tick.body.point_from_world(tick.tip_ends[index]?);
+            let base = whisker.base_body;
+            let start = unit(whisker.direction_body + tick.deflections[index]);
+            let first = base + whisker.shaft.length / 3.0 * start;
+            let second = Point2::from((first.coords + tip.coords) / 2.0);
+            let point = |k: u32| on_curve([base, first, second, tip], f64::from(k) / f64::from(SHAFT_POINTS - 1));
+            Some(line(&(0..SHAFT_POINTS).map(point).collect::<Vec<_>>(), false, 1.5e-3, WHISKER))
+        });
+        update("whiskers", BODY, tick.time, shafts.collect())
+    }
+
+    /// The pose of the platform, as transform and as pose.
+    pub(super) fn pose(tick: &TickRecord) -> (FrameTransform, PoseInFrame) {
+        let [x, y] = [tick.body.position.x, tick.body.position.y].map(rounded);
+        let half = tick.body.heading.sin_cos().0.atan2(tick.body.heading.cos()) / 2.0;
+        let rotation = Quaternion { x: 0.0, y: 0.0, z: half.sin(), w: half.cos() };
+        let translation = Vector3 { x, y, z: 0.0 };
+        let timestamp = Some(timestamp(tick.time));
+        (
+            FrameTransform {
+                timestamp,
+                parent_frame_id: WORLD.to_owned(),
+                child_frame_id: BODY.to_owned(),
+                translation: Some(translation),
+                rotation: Some(rotation),
+            },
+            PoseInFrame {
+                timestamp,
+                frame_id: WORLD.to_owned(),
+                pose: Some(Pose { position: Some(translation), orientation: Some(rotation) }),
+            },
+        )
+    }
+
+    /// The estimated tips of the whiskers that touch.
+    pub(super) fn tips(&self, tick: &TickRecord) -> PointCloud {
+        let contacts = tick.contacts.iter().take(self.whiskers.len());
+        let tips: Vec<Point2> =
+            contacts.filter(|contact| contact.is_touching).filter_map(|contact| contact.tip_world).collect();
+        cloud(&tips, tick.time)
+    }
+
+    /// Adds the recorded tips of a tick. The result is the contour, if it has grown by an eighth since the last message. So all
+    /// messages together are at most nine times as long as the last one.
+    pub(super) fn grown(&mut self, tick: &TickRecord) -> Option<PointCloud> {
+        self.contour.extend(tick.tips.iter().flatten());
+        (self.contour.len() > self.sent + self.sent / 8 + 8).then(|| self.contour(tick.time))
+    }
+
+    /// The recorded contour, if it has points that no message has.
+    pub(super) fn rest(&mut self, time: f64) -> Option<PointCloud> {
+        (self.contour.len() > self.sent).then(|| self.contour(time))
+    }
+
+    fn contour(&mut self, time: f64) -> PointCloud {
+        self.sent = self.contour.len();
+        cloud(&self.contour, time)
+    }
+}
+
+/// A point of a cubic curve.
+fn on_curve([a, b, c, d]: [Point2; 4], t: f64) -> Point2 {
+    let s = 1.0 - t;
+    let sum = s * s * s * a.coords + 3.0 * s * s * t * b.coords + 3.0 * s * t * t * c.coords + t * t * t * d.coords;
+    Point2::from(sum)
+}
+
+/// The points of a drawn contour: the ends of its pieces, and points on its arcs.
+fn contour_points(contour: &Contour) -> Vec<Point2> {
+    let mut points: Vec<Point2> = contour.pieces().iter().flat_map(piece_points).collect();
+    points.extend(contour.pieces().last().filter(|_| !contour.is_closed()).map(Piece::end));
+    points
+}
+
+/// The points of a piece without its end.
+fn piece_points(piece: &Piece) -> Vec<Point2> {
+    // A chord of the length c is at most c² κ / 8 away from its arc.
+    let chord = (8.0 * CHORD_ERROR / piece.curvature().abs()).sqrt();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a small positive number")]
+    let count = (piece.length() / chord).ceil().clamp(1.0, 1e4) as u32;
+    (0..count).map(|k| piece.point_at(piece.length() * f64::from(k) / f64::from(count))).collect()
+}
+
+fn line(points: &[Point2], is_closed: bool, thickness: f64, color: Color) -> LinePrimitive {
+    let kind = if is_closed { line_primitive::Type::LineLoop } else { line_primitive::Type::LineStrip };
+    LinePrimitive {
+        r#type: kind.into(),
+        pose: Some(ORIGIN),
+        thickness,
+        scale_invariant: false,
+        points: points.iter().map(|point| Point3 { x: rounded(point.x), y: rounded(point.y), z: 0.0 }).collect(),
+        color: Some(color),
+        colors: Vec::new(),
+        indices: Vec::new(),
+    }
+}
+
+fn update(id: &str, frame: &str, time: f64, lines: Vec<LinePrimitive>) -> SceneUpdate {
+    let entity = SceneEntity {
+        timestamp: Some(timestamp(time)),
+        frame_id: frame.to_owned(),
+        id: id.to_owned(),
+        frame_locked: true,
+        lines,
+        ..SceneEntity::default()
+    };
+    SceneUpdate { deletions: Vec::new(), entities: vec![entity] }
+}
+
+/// Points as 32-bit numbers.
+fn cloud(points: &[Point2], time: f64) -> PointCloud {
+    let field =
+        |name: &str, offset| PackedElementField { name: name.to_owned(), offset, r#type: NumericType::Float32.into() };
+    #[expect(clippy::cast_possible_truncation, reason = "only to be drawn")]
+    let data: Vec<u8> = points
+        .iter()
+        .flat_map(|point| [point.x, point.y, 0.0])
+        .flat_map(|x| (rounded(x) as f32).to_le_bytes())
+        .collect();
+    PointCloud {
+        timestamp: Some(timestamp(time)),
+        frame_id: WORLD.to_owned(),
+        pose: Some(ORIGIN),
+        point_stride: 12,
+        fields: vec![field("x", 0), field("y", 4), field("z", 8)],
+        data: Bytes::from(data),
+    }
+}
+
+fn rounded(coordinate: f64) -> f64 {
+    (coordinate / RESOLUTION).round() * RESOLUTION
+}
+
+fn timestamp(time: f64) -> Timestamp {
+    let nanoseconds = nanoseconds(time);
+    let seconds = u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX);
+    Timestamp::new(seconds, u32::try_from(nanoseconds % 1_000_000_000).unwrap_or(0))
+}
+
+/// A time since the start of the run (s) in nanoseconds. A time that is no number is 0.
+pub(super) fn nanoseconds(time: f64) -> u64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "such a cast saturates, and NaN becomes 0"
+    )]
+    let nanoseconds = (time * 1e9).round() as u64;
+    nanoseconds
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::geometry::{Pose as BodyPose, circle, polygon};
+    use proptest::prelude::*;
+    use vibrissa_runtime::signal::Command;
+
+    /// A tick of a platform at `body` whose first whisker has its tip at `tip_world` and has recorded it.
+    fn tick(body: BodyPose, tip_world: Point2) -> TickRecord {
+        let mut tick = TickRecord {
+            time: 1.25,
+            body,
+            state: None,
+            deflections: Default::default(),
+            tips: Default::default(),
+            contacts: Default::default(),
+            tip_deviations: Default::default(),
+            command: Command::STOP,
+            fallback: None,
+            tip_ends: Default::default(),
+            body_touches: false,
+            out_of_plane: Default::default(),
+            snap_offs: Default::default(),
+        };
+        (tick.tip_ends[0], tick.tips[0]) = (Some(tip_world), Some(tip_world));
+        tick
+    }
+
+    fn view() -> View {
+        let rig = Rig::default();
+        let names = vec![rig.whiskers[0].name.clone()];
+        View::new(rig, &names)
+    }
+
+    proptest! {
+        #[test]
+        fn a_drawn_whisker_begins_at_its_base_and_ends_at_its_tip(
+            (x, y, heading) in (-1.0..1.0, -1.0..1.0, -3.0..3.0_f64),
+            (forward, aside) in (-0.05..0.05, -0.16..-0.1),
+        ) {
+            let body = BodyPose { position: Point2::new(x, y), heading };
+            let tip_body = Point2::new(forward, aside);
+            let view = view();
+            let update = view.whiskers(&tick(body, body.point_to_world(tip_body)));
+            let points = &update.entities[0].lines[0].points;
+            let is_at = |point: &Point3, other: Point2| (Point2::new(point.x, point.y) - other).norm() < 2.0 * RESOLUTION;
+            prop_assert!(is_at(&points[0], view.rig.whiskers[0].base_body));
+            prop_assert!(is_at(&points[points.len() - 1], tip_body));
+            prop_assert_eq!(&update.entities[0].frame_id, BODY);
+        }
+
+        #[test]
+        fn a_drawn_outline_is_nowhere_farther_from_the_contour_than_a_chord_may_be(radius in 0.01..1.0_f64) {
+            let contour = circle(Point2::new(0.3, 0.2), radius).unwrap();
+            let points = contour_points(&contour);
+            for pair in points.windows(2) {
+                prop_assert!(contour.nearest(nalgebra::center(&pair[0], &pair[1])).distance < 1.001 * CHORD_ERROR);
+            }
+            prop_assert!(points.len() < 1000);
+        }
+
+        #[test]
+        fn the_frame_of_the_body_is_its_pose((x, y, heading) in (-1.0..1.0, -1.0..1.0, -9.0..9.0_f64)) {
+            let body = BodyPose { position: Point2::new(x, y), heading };
+            let (transform, pose) = View::pose(&tick(body, Point2::origin()));
+            let rotation = transform.rotation.unwrap();
+            let turned = 2.0 * rotation.z.atan2(rotation.w);
+            prop_assert!((turned - heading).sin().abs() < 1e-9 && (turned - heading).cos() > 0.0);
+            prop_assert_eq!(pose.pose.unwrap().orientation, transform.rotation);
+            prop_assert!((transform.translation.unwrap().x - x).abs() <= RESOLUTION);
+        }
+    }
+
+    #[test]
+    fn a_polygon_keeps_its_corners() {
+        let corners = [Point2::origin(), Point2::new(0.5, 0.0), Point2::new(0.2, 0.4)];
+        assert_eq!(contour_points(&polygon(&corners).unwrap()), corners);
+    }
+
+    #[test]
+    fn all_messages_of_the_contour_together_are_bounded_by_the_last_one() {
+        let mut view = view();
+        let tick = tick(BodyPose { position: Point2::origin(), heading: 0.0 }, Point2::new(0.1, 0.1));
+        let sizes: Vec<usize> = (0..10_000).filter_map(|_| view.grown(&tick)).map(|cloud| cloud.data.len()).collect();
+        let rest = view.rest(1.0).unwrap().data.len();
+        assert_eq!(rest, 10_000 * 12);
+        assert!(sizes.iter().sum::<usize>() < 10 * rest, "{} of {rest}", sizes.iter().sum::<usize>());
+        assert!(view.rest(1.0).is_none());
+    }
+}
