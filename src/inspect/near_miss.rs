@@ -46,7 +46,7 @@ impl Document for NearMiss {
     const FORMAT: &'static str = "near-miss";
 }
 
-/// A guard and its missing part. Parts of a guard are counted from 0, and its time comes after them.
+/// A transition, and the text of the part of its guard that was missing.
 type Key = (TransitionId, String);
 
 /// The smallest margin of a key until now.
