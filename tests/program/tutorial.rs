@@ -5,6 +5,7 @@ use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::policy::compile_with_warnings;
 
 const TUTORIAL: &str = include_str!("../../docs/tutorial.md");
+#[cfg(feature = "sim")]
 const SEVERAL_OBJECTS: &str = include_str!("../../docs/howto/several-objects.md");
 
 /// The blocks of a page in a language, in their order.
