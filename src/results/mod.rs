@@ -1,5 +1,6 @@
 //! Results as JSON documents: runs, ticks, and counts over runs.
 
+mod collisions;
 mod contract_result;
 mod document;
 mod drive_result;
@@ -10,6 +11,7 @@ mod shown_value;
 mod tally;
 mod tick_line;
 
+pub use collisions::Collisions;
 pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
@@ -17,8 +19,8 @@ pub use inclination::Inclination;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub(crate) use run_result::marked;
 pub use run_result::{
-    Collisions, Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity,
-    OutOfPlane, Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
+    Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity, OutOfPlane,
+    Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
 };
 pub use shown_value::{ShownNumber, ShownValue};
 pub use tally::{Ending, Figures, Tally, TipShares};

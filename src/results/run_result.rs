@@ -1,6 +1,7 @@
 //! The result of a run as a JSON document.
 
 use super::Document;
+use super::collisions::Collisions;
 use super::contract_result::ContractResult;
 use super::inclination::Inclination;
 use serde::{Serialize, Serializer};
@@ -8,7 +9,7 @@ use serde::{Serialize, Serializer};
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
 use crate::score::{
-    self, CornerFigures, CornerStatistics, Moments, OutOfPlaneFigures, RetrievalFigures, Score, StateShare, TipDistance,
+    CornerFigures, CornerStatistics, Moments, OutOfPlaneFigures, RetrievalFigures, Score, StateShare, TipDistance,
 };
 use vibrissa_runtime::machine::Program;
 
@@ -252,22 +253,6 @@ pub struct Corners {
     pub path_m: MeanStdMax,
 }
 
-/// Contacts of the platform's body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Collisions {
-    /// Number of separate contacts.
-    pub count: usize,
-    /// Time in contact.
-    pub time_s: f64,
-    /// Time of the first contact.
-    pub first_s: Option<f64>,
-    /// Name of the active state at the first contact.
-    pub first_state: Option<String>,
-    /// Position of the platform's centre of mass at the first contact.
-    pub first_position_m: Option<[f64; 2]>,
-}
-
 /// Motion of tips out of the plane.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -413,19 +398,6 @@ pub fn policy_label(program: &Program) -> String {
 /// The name of a policy, or of its file, with a mark if it used true tips.
 pub(crate) fn marked(policy: &str, true_tips: bool) -> String {
     if true_tips { format!("{policy} (true tips)") } else { policy.to_owned() }
-}
-
-impl Collisions {
-    fn new(figures: &score::Collisions, trace: &Trace) -> Self {
-        let first = figures.first;
-        Self {
-            count: figures.count,
-            time_s: figures.time,
-            first_s: first.map(|contact| contact.time),
-            first_state: first.and_then(|contact| state_name(trace, contact.state)),
-            first_position_m: first.map(|contact| contact.position.coords.into()),
-        }
-    }
 }
 
 impl OutOfPlane {
