@@ -25,6 +25,7 @@ Commands:
   prose   measure the sentences and terms of the documentation
   links   follow the links between the pages of the documentation
   book    build the documentation as a book in target/book
+  web     check the scripts of the pages and bundle them into web/dist; needs npm
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
@@ -60,6 +61,7 @@ pub(crate) enum Command {
     Nightly(nightly::Options),
     Pieces(pieces::Options),
     Pi,
+    Web,
     Fuzz(u64),
 }
 
@@ -105,6 +107,7 @@ impl Command {
             "nightly" => return parse_nightly(arguments),
             "pieces" => return parse_pieces(arguments),
             "pi" => Self::Pi,
+            "web" => Self::Web,
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
                 Self::Fuzz(count.ok_or(ArgumentError::NoCount)?)

@@ -16,6 +16,7 @@ use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
 use crate::runtime::{self, RuntimeError};
 use crate::setup::{self, Options, SetupError};
+use crate::web::{self, WebError};
 
 /// One thing that must hold.
 struct Check {
@@ -33,6 +34,7 @@ enum Work {
     Prose,
     Links,
     Book,
+    Web,
     Examples,
     CheckoutIsUntouched,
 }
@@ -72,6 +74,8 @@ pub(crate) enum CheckError {
     #[error(transparent)]
     Book(#[from] BookError),
     #[error(transparent)]
+    Web(#[from] WebError),
+    #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]
     Cargo(#[from] NotStarted),
@@ -88,7 +92,7 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 18] = [
+const CHECKS: [Check; 19] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
@@ -116,6 +120,7 @@ const CHECKS: [Check; 18] = [
         ],
     ),
     Check { title: "book", work: Work::Book },
+    Check { title: "scripts of the pages", work: Work::Web },
     Check { title: "set-up", work: Work::Setup },
     check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
     check(
@@ -207,6 +212,7 @@ impl Check {
             }
             Work::Links => Ok(links::check(root)?),
             Work::Book => the_book_is_built(root),
+            Work::Web => scripts_are_right(root),
             Work::Examples => examples_run(self.title, root),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
@@ -284,6 +290,17 @@ fn the_book_is_built(root: &Path) -> Result<(), CheckError> {
             Ok(())
         }
         Err(error) => Err(error.into()),
+    }
+}
+
+/// Without npm, the bundles of the checkout remain as they are.
+fn scripts_are_right(root: &Path) -> Result<(), CheckError> {
+    match web::check(root) {
+        Err(WebError::NoNpm) if env::var_os("CI").is_none() => {
+            println!("      left out: {}", WebError::NoNpm);
+            Ok(())
+        }
+        result => Ok(result?),
     }
 }
 

@@ -28,6 +28,7 @@ mod sign_of_life;
 mod sources;
 mod stamp;
 mod standard_library;
+mod web;
 mod wheel;
 
 use std::env;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
         Command::Nightly(options) => status(nightly::nightly(&root, &options)),
         Command::Pieces(options) => status(pieces::write(&root, &options)),
         Command::Pi => status(pi::pack(&root)),
+        Command::Web => status(web::write(&root)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
 }

@@ -1,0 +1,63 @@
+//! The scripts of the pages: TypeScript in `web/src`, bundled into `web/dist`, which the program contains.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::{fs, io};
+
+use thiserror::Error;
+
+use crate::cargo::target_directory;
+
+/// The names of the bundles. Each is the script of one page.
+const BUNDLES: [&str; 1] = ["report.js"];
+
+/// A fault of the scripts, or of the tools that check them.
+#[derive(Debug, Error)]
+pub(crate) enum WebError {
+    #[error("there is no npm; install Node.js 20 or newer with npm, then try again")]
+    NoNpm,
+    #[error("`{command}` failed in `web` ({status}); what it found is above")]
+    Failed { command: String, status: ExitStatus },
+    #[error("web/dist/{0} differs from the bundle of web/src; write it by `cargo x web`")]
+    Outdated(&'static str),
+    #[error("cannot {action} {}: {source}", path.display())]
+    Disk { action: &'static str, path: PathBuf, source: io::Error },
+}
+
+/// Checks the types and writes the bundles into `web/dist`.
+pub(crate) fn write(root: &Path) -> Result<(), WebError> {
+    let web = root.join("web");
+    prepare(&web)?;
+    run(&web, "npm", &["run", "--silent", "bundle", "dist"])
+}
+
+/// Checks the types, and that `web/dist` has the bundles of the sources.
+pub(crate) fn check(root: &Path) -> Result<(), WebError> {
+    let web = root.join("web");
+    prepare(&web)?;
+    let fresh = target_directory(root).join("web");
+    run(&web, "npm", &["run", "--silent", "bundle", &fresh.to_string_lossy()])?;
+    for name in BUNDLES {
+        let read = |path: PathBuf| fs::read(&path).map_err(|source| WebError::Disk { action: "read", path, source });
+        if read(web.join("dist").join(name))? != read(fresh.join(name))? {
+            return Err(WebError::Outdated(name));
+        }
+    }
+    Ok(())
+}
+
+/// Installs the pinned tools and checks the types.
+fn prepare(web: &Path) -> Result<(), WebError> {
+    if Command::new("npm").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err() {
+        return Err(WebError::NoNpm);
+    }
+    run(web, "npm", &["ci", "--silent", "--no-audit", "--no-fund"])?;
+    run(web, "npm", &["run", "--silent", "check"])
+}
+
+fn run(web: &Path, program: &str, arguments: &[&str]) -> Result<(), WebError> {
+    let status = Command::new(program).args(arguments).current_dir(web).status();
+    let status = status.map_err(|source| WebError::Disk { action: "run", path: program.into(), source })?;
+    let command = || format!("{program} {}", arguments.join(" "));
+    if status.success() { Ok(()) } else { Err(WebError::Failed { command: command(), status }) }
+}
