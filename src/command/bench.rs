@@ -15,13 +15,14 @@ use super::trials::{Finished, inputs, make_directory, run_all};
 use crate::built_in::SCENARIOS;
 use crate::calibration::TouchLimits;
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load;
+use crate::load::{self, LoadError};
 use crate::physics::Physics;
-use crate::report::{bench_page, bench_table, pooled_tips};
-use crate::results::RunResult;
+use crate::report::{RunFigures, bench_page, bench_table, pooled_tips};
+use crate::results::{Document, RunResult};
 use crate::scene::{Outcome, Scene, Violation, WorldSetup};
 use crate::study::ArrayCalibration;
 use crate::study::bench::{BenchRow, Conditions};
+use crate::study::compare::OlderRuns;
 use crate::trial::Trial;
 
 const EXAMPLE: &str = "Example:\n  vibrissa bench --out out\n  vibrissa bench --policy mine.fsm --friction 0,0.1\n\nExit status: 0 all runs completed and no figure is worse than that of the baseline; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -35,6 +36,9 @@ pub(super) struct BenchArguments {
     /// Write all results, a picture of every run and a page that shows them into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Older report: its directory, or its `results.json`. The page of `--out` says what has changed since then
+    #[arg(long, value_name = "DIR", requires = "out")]
+    against: Option<PathBuf>,
     #[command(flatten)]
     format: Format,
     #[command(flatten)]
@@ -60,18 +64,19 @@ pub(super) struct BenchTrials {
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let trials = bench_trials(&arguments.trials, &mut files)?;
+    let older = arguments.against.as_deref().map(|path| older_runs(path, &mut files)).transpose()?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &trials, &mut files)).transpose()?;
     let (conditions, trials): (Vec<_>, Vec<_>) = trials.into_iter().unzip();
     let finished = run_all(&trials, arguments.jobs, |_| arguments.out.is_some())?;
-    let (mut rows, mut pictures) = (Vec::with_capacity(finished.len()), Vec::with_capacity(finished.len()));
-    for (Finished { result, violations, picture }, conditions) in finished.into_iter().zip(conditions) {
+    let (mut rows, mut figures) = (Vec::with_capacity(finished.len()), Vec::new());
+    for (Finished { result, violations, figures: drawn }, conditions) in finished.into_iter().zip(conditions) {
         let row = BenchRow::new(result, violations.is_empty()).under(conditions);
         report_row(&row, &violations);
         rows.push(row);
-        pictures.push(picture.unwrap_or_default());
+        figures.extend(drawn);
     }
-    let page = report.map(|report| report.write(&rows, &pictures)).transpose()?;
+    let page = report.map(|report| report.write(&rows, &figures, older.as_ref())).transpose()?;
     output::documents(arguments.format, &rows, || [bench_table(&rows)])?;
     if !arguments.format.json {
         output::result(pooled_tips(&rows))?;
@@ -80,6 +85,17 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         }
     }
     Ok(if rows.iter().all(|row| row.passed) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// Largest size of an older report in bytes. That of the bench has some hundred thousand.
+const REPORT_LIMIT: usize = 1 << 28;
+
+/// The runs of an older report: of a directory, or of a file of results.
+fn older_runs(path: &Path, files: &mut CommandFiles) -> Result<OlderRuns, Failure> {
+    let path = if path.is_dir() { path.join("results.json") } else { path.to_owned() };
+    let bytes = files.read(&path, REPORT_LIMIT).map_err(LoadError::read(&path))?;
+    let read = OlderRuns::read(path.display().to_string(), &String::from_utf8_lossy(&bytes));
+    read.map_err(|cause| Failure::Older { path, cause })
 }
 
 /// The trials of every scenario under every policy and all conditions. The runs of a scenario are consecutive.
@@ -170,13 +186,15 @@ impl Report {
     }
 
     /// Writes the files and returns the path of the page.
-    fn write(self, rows: &[BenchRow], pictures: &[String]) -> Result<PathBuf, Failure> {
-        for (file, picture) in self.pictures.into_iter().zip(pictures) {
-            file.write(picture)?;
+    fn write(self, rows: &[BenchRow], figures: &[RunFigures], older: Option<&OlderRuns>) -> Result<PathBuf, Failure> {
+        for (file, figures) in self.pictures.into_iter().zip(figures) {
+            file.write(&figures.picture)?;
         }
+        let documents = rows.iter().map(|row| serde_json::to_value(row.versioned())).collect::<Result<Vec<_>, _>>()?;
+        let changes = older.map(|older| older.changes(&documents));
         self.results.write(output::list(rows)? + "\n")?;
         let page = self.page.path().to_owned();
-        self.page.write(bench_page(rows, pictures))?;
+        self.page.write(bench_page(rows, figures, changes.as_ref()))?;
         Ok(page)
     }
 }

@@ -10,13 +10,13 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
-use super::trials::{inputs, run_all};
+use super::trials::{inputs, make_directory, run_all};
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use crate::built_in::{SCENARIOS, TextFile};
-use crate::file::CommandFiles;
+use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, Loaded};
-use crate::report::comparison_tables;
-use crate::results::{RunResult, marked};
+use crate::report::{comparison_page, comparison_tables};
+use crate::results::{Document, RunResult, marked};
 use crate::scene::{Jitter, Scene};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns};
 use crate::trial::Trial;
@@ -45,6 +45,9 @@ pub(super) struct CompareArguments {
     world: WorldOptions,
     #[command(flatten)]
     mismatch: MismatchOptions,
+    /// Write the comparison, all results and a page with the differences in words into this directory
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     format: Format,
     #[command(flatten)]
@@ -66,6 +69,8 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     }
     let mut read = CommandFiles::new();
     let settings = settings(&scenarios, arguments, &mut read)?;
+    make_directory(arguments.out.as_deref())?;
+    let report = arguments.out.as_deref().map(|directory| Report::new(directory, &mut read)).transpose()?;
     let mut trials = Vec::with_capacity(policies.len() * settings.len());
     for path in &policies {
         let policy = load::policy(path, &mut read)?;
@@ -88,8 +93,36 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         .collect();
     let comparison = Comparison::new(&runs);
     report_incomplete(&comparison);
+    let page = report.map(|report| report.write(&comparison, &runs)).transpose()?;
     output::document(arguments.format, &comparison, || comparison_tables(&comparison))?;
+    if let (Some(page), false) = (page, arguments.format.json) {
+        output::result(format_args!("report: {}", page.display()))?;
+    }
     Ok(Exit::Done)
+}
+
+/// The files for the comparison, all results and the page.
+struct Report {
+    comparison: Output,
+    results: Output,
+    page: Output,
+}
+
+impl Report {
+    fn new(directory: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
+        let mut file = |name: &str| files.output("--out", &directory.join(name));
+        Ok(Self { comparison: file("comparison.json")?, results: file("results.json")?, page: file("index.html")? })
+    }
+
+    /// Writes the files and returns the path of the page.
+    fn write(self, comparison: &Comparison, runs: &[(String, Vec<RunResult>)]) -> Result<PathBuf, Failure> {
+        self.comparison.write(serde_json::to_string_pretty(&comparison.versioned())? + "\n")?;
+        let results: Vec<RunResult> = runs.iter().flat_map(|(_, results)| results).cloned().collect();
+        self.results.write(output::list(&results)? + "\n")?;
+        let page = self.page.path().to_owned();
+        self.page.write(comparison_page(comparison))?;
+        Ok(page)
+    }
 }
 
 fn report_incomplete(comparison: &Comparison) {

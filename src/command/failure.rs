@@ -16,6 +16,7 @@ use crate::property::RegressionsError;
 use crate::recording::{ReadRecordingError, RecordError};
 use crate::report::ChartTooLarge;
 use crate::study::ArrayCalibrationError;
+use crate::study::compare::OlderRunsError;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
 use crate::trial::{ExecuteError, StartError, Trial};
@@ -37,6 +38,8 @@ pub(super) enum Failure {
     Folder { path: PathBuf, cause: std::io::Error },
     #[error(transparent)]
     Output(#[from] OutputError),
+    #[error("{} is no older report: {cause}; give the directory of an earlier `vibrissa bench --out`", path.display())]
+    Older { path: PathBuf, cause: OlderRunsError },
     #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
     Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{} is a compiled machine, which has no tests; test its policy", policy.display())]

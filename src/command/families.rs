@@ -178,13 +178,13 @@ impl Report {
 fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
     let rows = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
         let Drawn { family, number: trial, draw } = drawn;
-        let Finished { result, violations, picture } = finished;
+        let Finished { result, violations, figures } = finished;
         let passed = violations.is_empty();
         let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
             report_run(&run, &violations);
         }
-        (run, picture)
+        (run, figures.map(|figures| figures.picture))
     });
     rows.unzip()
 }

@@ -8,7 +8,8 @@ use clap::Args;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use super::run::{Prepared, RunArguments, TickFile, finish, prepared_trials, reports, show};
+use super::reports::Reports;
+use super::run::{Prepared, RunArguments, TickFile, prepared_trials};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::inspect::{Breakpoints, Inspector};
@@ -41,10 +42,10 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
     let options = &arguments.inspection;
     let trials = prepared_trials(arguments, files)?;
     let transition_file = options.transitions.as_ref().map(|path| files.output("--transitions", path)).transpose()?;
-    let reports = reports(trials.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), files)?;
+    let mut reports = Reports::new(trials.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), files)?;
     let mut ticks = TickFile::new(arguments, files)?;
-    let (mut results, mut stops, mut lines, mut exit) = (Vec::new(), Vec::new(), String::new(), Exit::Done);
-    for (Prepared { trial, text, .. }, report) in trials.iter().zip(reports) {
+    let (mut stops, mut lines, mut exit) = (Vec::new(), String::new(), Exit::Done);
+    for (index, Prepared { trial, text, .. }) in trials.iter().enumerate() {
         let source = text.as_ref().ok_or_else(|| Failure::NoTextToInspect { name: trial.program.name.clone() })?;
         let policy = breakpoints(source, &options.breakpoints)?;
         let trial = with_program(trial, &policy);
@@ -67,7 +68,7 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
                     exit = Exit::Unexpected;
                 }
                 ticks.add(&trial, &finished.run)?;
-                results.push(finish(&trial, &finished, report)?);
+                reports.add(index, &trial, &finished)?;
             }
         }
     }
@@ -78,8 +79,8 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
     if !stops.is_empty() {
         output::documents(arguments.format, &stops, || stops.iter().flat_map(stop_tables).collect::<Vec<_>>())?;
     }
-    if stops.is_empty() || !results.is_empty() {
-        show(&results, arguments)?;
+    if stops.is_empty() || !reports.is_empty() {
+        reports.show(arguments.format)?;
     }
     Ok(exit)
 }

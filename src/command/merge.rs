@@ -8,7 +8,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::Format;
 use super::output;
-use super::sweep::print_summary;
+use super::sweep::{PAGE, print_summary, write_page};
 use crate::file::CommandFiles;
 use crate::load::LoadError;
 use crate::sweep::{Missing, SweepSummary, merge as merge_files};
@@ -52,9 +52,12 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
     }
     let path = arguments.out.clone().unwrap_or_else(|| first.with_file_name("results.jsonl"));
     let file = read.output("--out", &path)?;
+    let page = read.output("--out", &path.with_file_name(PAGE))?;
     let _lock = merged.check_path(&path)?;
     file.write(merged.text()?)?;
-    print_summary(&SweepSummary::new(&merged.sweep, &merged.figures, 0), &path, arguments.format)?;
+    let summary = SweepSummary::new(&merged.sweep, &merged.figures, 0);
+    print_summary(&summary, &path, arguments.format)?;
+    write_page(page, &merged.sweep, &summary, &path, arguments.format)?;
     Ok(Exit::Done)
 }
 

@@ -29,6 +29,7 @@ mod pareto;
 mod progress;
 mod push;
 mod replay;
+mod reports;
 mod run;
 mod run_recording;
 #[cfg(test)]

@@ -125,7 +125,7 @@ impl PolicyRuns {
             let name = format!("{}-{name}.svg", self.policy.explained.program.name);
             let file: Output = files.output("--out", &directory.join(name))?;
             let result = trial.run().map_err(Failure::execute(trial))?;
-            file.write(drawn(trial, &result))?;
+            file.write(drawn(trial, &result).picture)?;
         }
         Ok(())
     }

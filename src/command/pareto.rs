@@ -16,7 +16,7 @@ use super::values::parse_repeats;
 use crate::built_in::SCENARIOS;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, Loaded};
-use crate::report::{pareto_picture, pareto_table};
+use crate::report::{pareto_page, pareto_picture, pareto_table};
 use crate::results::{Document, Ending};
 use crate::study::pareto::{Pareto, Setting, measure};
 use crate::trial::check_world;
@@ -37,7 +37,7 @@ pub(super) struct ParetoArguments {
     /// Number of runs of every setting without a mismatch, from 1 to 1000. Run times are medians
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, value_parser = parse_repeats)]
     repeats: usize,
-    /// Write the results and a picture of time against error into this directory
+    /// Write the results, pictures of time against error and a page with both into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -65,6 +65,8 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         arguments.out.as_ref().map(|directory| Report::new(&stem(directory), &mut files)).transpose()
     };
     let reports = programs.iter().map(report).collect::<Result<Vec<_>, _>>()?;
+    let page = arguments.out.as_ref().map(|directory| files.output("--out", &directory.join("index.html")));
+    let page = page.transpose()?;
     let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats);
     let mut progress = Progress::new(programs.len() * settings.len() * (repeats + 1));
     let mut measured = Vec::with_capacity(programs.len());
@@ -81,6 +83,13 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         report.map(|report| report.write(pareto)).transpose()?;
     }
     output::documents(arguments.format, &measured, || measured.iter().map(pareto_table).collect::<Vec<_>>())?;
+    if let Some(page) = page {
+        let path = page.path().display().to_string();
+        page.write(pareto_page(&measured))?;
+        if !arguments.format.json {
+            output::result(format_args!("report: {path}"))?;
+        }
+    }
     Ok(Exit::Done)
 }
 

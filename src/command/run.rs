@@ -15,7 +15,8 @@ use super::failure::Failure;
 use super::inspect::{InspectionOptions, inspect};
 use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
-use super::trials::{ReportFiles, extended, inputs, make_directory, report_events, run_with_bar};
+use super::reports::Reports;
+use super::trials::{inputs, run_with_bar};
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
@@ -23,8 +24,7 @@ use crate::file::{CommandFiles, Output};
 use crate::load::{self, GivenMismatch, Loaded};
 #[cfg(feature = "recording")]
 use crate::recording::Recorder;
-use crate::report::results_table;
-use crate::results::{RunResult, tick_lines};
+use crate::results::tick_lines;
 use crate::run::Run;
 use crate::trial::{Inputs, Trial, TrialResult};
 
@@ -49,7 +49,7 @@ pub(super) struct RunArguments {
     /// Seed of the sensor noise. Overrides the seed of the scenario, and has no effect without noise
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     seed: Option<u64>,
-    /// Write pictures and the result of every run into this directory
+    /// Write pictures and the result of every run into this directory, and a page that shows all runs
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Write the perception and the command of every tick into this file, as one line of JSON each
@@ -79,10 +79,11 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let prepared = prepared_trials(arguments, &mut files)?;
     #[cfg(feature = "recording")]
     let mut record = record_file(arguments, &mut files)?;
-    let reports = reports(prepared.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), &mut files)?;
+    let trials = prepared.iter().map(|prepared| &prepared.trial);
+    let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
     let mut ticks = TickFile::new(arguments, &mut files)?;
-    let (mut results, mut exit) = (Vec::with_capacity(prepared.len()), Exit::Done);
-    for (prepared, report) in prepared.iter().zip(reports) {
+    let mut exit = Exit::Done;
+    for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
         #[cfg(feature = "recording")]
         let finished = match record.take() {
@@ -91,15 +92,14 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         };
         #[cfg(not(feature = "recording"))]
         let finished = run_with_bar(trial, &mut ())?;
-        let result = finish(trial, &finished, report)?;
+        reports.add(index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
         }
         ticks.add(trial, &finished.run)?;
-        results.push(result);
     }
     ticks.write()?;
-    show(&results, arguments)?;
+    reports.show(arguments.format)?;
     Ok(exit)
 }
 
@@ -213,65 +213,4 @@ fn trial(
         #[cfg(feature = "recording")]
         artifact: policy.artifact,
     })
-}
-
-/// Makes the directory for reports, and returns the files of the reports in it.
-pub(super) fn reports<'t>(
-    trials: impl Iterator<Item = &'t Trial>,
-    directory: Option<&Path>,
-    files: &mut CommandFiles,
-) -> Result<Vec<Option<ReportFiles>>, Failure> {
-    make_directory(directory)?;
-    let report = |trial: &Trial| {
-        let report = directory.map(|directory| ReportFiles::new(&directory.join(&trial.scene.name), files));
-        Ok(report.transpose()?)
-    };
-    trials.map(report).collect()
-}
-
-/// Prints the expectations that do not hold, and writes the report.
-pub(super) fn finish(trial: &Trial, finished: &TrialResult, report: Option<ReportFiles>) -> Result<RunResult, Failure> {
-    let result = trial.document(finished);
-    report_events(&result);
-    show_messages(trial, &finished.run);
-    for contract in finished.run.contracts.iter().filter(|contract| contract.violations > 0) {
-        output::message(format_args!("{}: {contract}", trial.scene.name));
-    }
-    for violation in &finished.violations {
-        output::message(format_args!("{}: {violation}", trial.scene.name));
-    }
-    if let Some(report) = report {
-        report.write(trial, finished, &result)?;
-    }
-    Ok(result)
-}
-
-/// Number of messages of a run that are printed.
-const MESSAGES_PRINTED: usize = 40;
-
-/// Prints the first messages that the policy has logged.
-fn show_messages(trial: &Trial, run: &Run) {
-    let (name, trace) = (&trial.scene.name, &run.trace);
-    for message in trace.messages.iter().take(MESSAGES_PRINTED) {
-        let time = trace.ticks.get(message.tick).map_or(0.0, |tick| tick.time);
-        let state = message.state.and_then(|state| trace.states.get(state));
-        let state = state.map_or_else(String::new, |state| format!("{state}: "));
-        output::message(format_args!("{name}: {time:.2} s, {state}{}", message.message));
-    }
-    let further = trace.messages.len().saturating_sub(MESSAGES_PRINTED) + trace.further_messages;
-    if further > 0 {
-        output::message(format_args!("{name}: {further} further messages, which `--ticks FILE` writes"));
-    }
-}
-
-/// Prints the results and the paths of the reports.
-pub(super) fn show(results: &[RunResult], arguments: &RunArguments) -> Result<(), Failure> {
-    output::documents(arguments.format, results, || [results_table(results)])?;
-    if let (Some(directory), false) = (&arguments.out, arguments.format.json) {
-        for result in results {
-            let report = extended(&directory.join(&result.scenario), "svg");
-            output::result(format_args!("report: {}", report.display()))?;
-        }
-    }
-    Ok(())
 }

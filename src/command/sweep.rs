@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -12,12 +12,41 @@ use super::options::{Format, Jobs, MismatchOptions, PruneOption};
 use super::output;
 use super::progress::{Kept, Progress};
 use super::trials::make_directory;
-use crate::file::CommandFiles;
-use crate::report::summary_table;
-use crate::sweep::{Plan, Results, Shard, Sweep, SweepLine, SweepSummary, read_line};
+use crate::file::{CommandFiles, Output};
+use crate::report::{summary_table, sweep_page};
+use crate::sweep::{Plan, Results, RunRow, Shard, Sweep, SweepLine, SweepSummary, read_line, run_rows};
 use crate::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
 
 const EXAMPLE: &str = "Example:\n  vibrissa sweep sweeps/corners.yaml --out out/corners\n\nExit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; 2 unusable input; 3 internal error; 130 interrupted.";
+
+/// The folder of pictures in the directory of the results.
+const PICTURES: &str = "runs";
+/// The name of the page.
+pub(super) const PAGE: &str = "index.html";
+/// Number of runs of a group on the page. It keeps the page of a large sweep small.
+const RUNS_SHOWN: usize = 200;
+
+/// The runs of a sweep whose pictures are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Pictures {
+    /// No run
+    None,
+    /// Each run that did not pass
+    #[default]
+    Failed,
+    /// Every run. A picture has some hundred thousand bytes
+    All,
+}
+
+impl Pictures {
+    fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Failed => "failed",
+            Self::All => "all",
+        }
+    }
+}
 
 /// The arguments of `vibrissa sweep`.
 #[derive(Debug, Args)]
@@ -35,9 +64,12 @@ pub(super) struct SweepArguments {
     shard: Shard,
     #[command(flatten)]
     jobs: Jobs,
-    /// Directory of the results. The default is out/NAME. Runs whose results are already in it are skipped
+    /// Directory of the results and of a page with heat maps. The default is out/NAME. Runs whose results are already in it are skipped
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// The runs whose pictures are written into the folder `runs` of the directory. The page opens them
+    #[arg(long, value_enum, default_value_t)]
+    pictures: Pictures,
     #[command(flatten)]
     format: Format,
 }
@@ -51,8 +83,13 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let sweep = &plan.sweep;
     let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
     make_directory(Some(&directory))?;
+    let pictures = directory.join(PICTURES);
+    if arguments.pictures != Pictures::None {
+        make_directory(Some(&pictures))?;
+    }
     let path = directory.join(arguments.shard.file_name());
     files.growing("--out", &path)?;
+    let page = files.output("--out", &directory.join(PAGE))?;
     let header = plan.header(arguments.shard);
     let (mut results, mut done) = Results::open(&path, &header, sweep)?;
     let resumed = done.len();
@@ -60,7 +97,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
     let mut progress = Progress::resumed(resumed as u64, left.len() as u64, Kept::In(path.clone()));
     let fingerprint = header.fingerprint();
-    let start = || worker(arguments, &fingerprint);
+    let start = || worker(arguments, &pictures, &fingerprint);
     let mut failure = None;
     stream_in_parallel(
         &left,
@@ -86,17 +123,24 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     }
     let summary = SweepSummary::new(sweep, &done, resumed);
     print_summary(&summary, &path, arguments.format)?;
+    // The page of a part would show a part of the sweep. `merge` writes that of the whole.
+    if arguments.shard == Shard::WHOLE {
+        write_page(page, sweep, &summary, &path, arguments.format)?;
+    }
     Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
 }
 
 /// A process for runs: another instance of this program. A crash ends only one run.
-fn worker(arguments: &SweepArguments, fingerprint: &str) -> Result<Worker, StartError> {
+fn worker(arguments: &SweepArguments, pictures: &Path, fingerprint: &str) -> Result<Worker, StartError> {
     let mut command = Command::new(std::env::current_exe()?);
     command.arg("worker").arg(&arguments.file);
     if arguments.prune.no_prune {
         command.arg("--no-prune");
     }
     command.args(arguments.mismatch.arguments());
+    if arguments.pictures != Pictures::None {
+        command.arg("--folder").arg(pictures).arg("--pictures").arg(arguments.pictures.name());
+    }
     Worker::start(&mut command, fingerprint)
 }
 
@@ -118,4 +162,23 @@ pub(super) fn print_summary(summary: &SweepSummary, path: &Path, format: Format)
         return Ok(());
     }
     output::result(format_args!("results: {}", PathBuf::from(path).display()))
+}
+
+/// Writes the page of a sweep whose results are at `path`.
+pub(super) fn write_page(
+    page: Output,
+    sweep: &Sweep,
+    summary: &SweepSummary,
+    path: &Path,
+    format: Format,
+) -> Result<(), Failure> {
+    let rows = run_rows(sweep, path, RUNS_SHOWN)?;
+    let picture = |row: &RunRow| {
+        let name = format!("{PICTURES}/{}.svg", row.run);
+        path.with_file_name(&name).is_file().then_some(name)
+    };
+    let text = sweep_page(summary, &rows, picture);
+    let written = page.path().display().to_string();
+    page.write(text)?;
+    if format.json { Ok(()) } else { output::result(format_args!("report: {written}")) }
 }

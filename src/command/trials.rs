@@ -13,7 +13,7 @@ use super::output;
 use super::progress::Progress;
 use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::report::{picture, retrieval_picture};
+use crate::report::{RunFigures, retrieval_picture};
 use crate::results::{Collisions, Document, Failsafes, Inclination, RunResult};
 use crate::run::{Trace, Watcher};
 use crate::scene::Violation;
@@ -24,11 +24,11 @@ pub(super) struct Finished {
     pub(super) result: RunResult,
     /// The expectations of the scenario that do not hold.
     pub(super) violations: Vec<Violation>,
-    /// The picture, if one was asked for.
-    pub(super) picture: Option<String>,
+    /// The figures, if they were asked for.
+    pub(super) figures: Option<RunFigures>,
 }
 
-/// Runs all trials in parallel and returns their results in order. A trial has a picture if `is_drawn` is true for its
+/// Runs all trials in parallel and returns their results in order. A trial has figures if `is_drawn` is true for its
 /// violations. Standard error shows the progress.
 pub(super) fn run_all(
     trials: &[Trial],
@@ -50,12 +50,12 @@ pub(super) fn run_all(
 /// Runs one trial.
 pub(super) fn finished(trial: &Trial, is_drawn: impl Fn(&[Violation]) -> bool) -> Result<Finished, Failure> {
     let result = trial.run().map_err(Failure::execute(trial))?;
-    let picture = is_drawn(&result.violations).then(|| drawn(trial, &result));
-    Ok(Finished { result: trial.document(&result), violations: result.violations, picture })
+    let figures = is_drawn(&result.violations).then(|| drawn(trial, &result));
+    Ok(Finished { result: trial.document(&result), violations: result.violations, figures })
 }
 
-pub(super) fn drawn(trial: &Trial, result: &TrialResult) -> String {
-    picture(&trial.scene, &trial.policy_label(), &result.run, &result.score)
+pub(super) fn drawn(trial: &Trial, result: &TrialResult) -> RunFigures {
+    RunFigures::new(&trial.scene, &trial.policy_label(), &result.run, &result.score)
 }
 
 /// The inputs of a trial, by the path of its scenario and the hashes of scenario and policy.
@@ -160,15 +160,21 @@ impl ReportFiles {
         Ok(Self { picture: file("svg")?, retrievals: file("retrievals.svg")?, result: file("json")? })
     }
 
-    /// Writes the pictures and the result.
-    pub(super) fn write(self, trial: &Trial, result: &TrialResult, document: &RunResult) -> Result<(), Failure> {
-        self.picture.write(drawn(trial, result))?;
+    /// Writes the pictures and the result, and returns the figures.
+    pub(super) fn write(
+        self,
+        trial: &Trial,
+        result: &TrialResult,
+        document: &RunResult,
+    ) -> Result<RunFigures, Failure> {
+        let figures = drawn(trial, result);
+        self.picture.write(&figures.picture)?;
         match retrieval_picture(&trial.scene, &trial.policy_label(), &result.run.trace) {
             Some(strips) => self.retrievals.write(strips)?,
             None => self.retrievals.remove()?,
         }
         self.result.write(serde_json::to_string_pretty(&document.versioned())? + "\n")?;
-        Ok(())
+        Ok(figures)
     }
 }
 

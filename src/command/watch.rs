@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 
 use crate::file::CommandFiles;
-use crate::results::RunResult;
 use crate::run::Trace;
 use crate::score::Statistics;
 use crate::trial::{ExecuteError, Trial};
@@ -17,6 +16,7 @@ use crate::trial::{ExecuteError, Trial};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use super::reports::Reports;
 use super::run::{self, RunArguments};
 use super::trials::{make_directory, run_each_second, seconds};
 use crate::load::LoadError;
@@ -41,7 +41,7 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
         match trials.and_then(|trials| run_all(&trials, arguments, &mut files, &watch)) {
             Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
             Err(failure) => failure.report(),
-            Ok(results) => run::show(&results, arguments)?,
+            Ok(reports) => reports.show(arguments.format)?,
         }
         output::message(format_args!("watching {} files; Ctrl-C ends", watch.files.len()));
         watch.wait();
@@ -53,18 +53,18 @@ fn run_all(
     arguments: &RunArguments,
     files: &mut CommandFiles,
     watch: &Watch,
-) -> Result<Vec<RunResult>, Failure> {
-    let reports = run::reports(trials.iter(), arguments.out.as_deref(), files)?;
-    let run = |(trial, report): (&Trial, _)| {
+) -> Result<Reports, Failure> {
+    let mut reports = Reports::new(trials.iter(), arguments.out.as_deref(), files)?;
+    for (index, trial) in trials.iter().enumerate() {
         let mut printed = Ok(());
         let finished = run_each_second(trial, &mut (), |trace| {
             printed = print_second(trial, trace);
             if printed.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         printed?;
-        run::finish(trial, &finished?, report)
-    };
-    trials.iter().zip(reports).map(run).collect()
+        reports.add(index, trial, &finished?)?;
+    }
+    Ok(reports)
 }
 
 /// Prints the state of a run at this second, and the error of the tips since the last line.

@@ -10,11 +10,13 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{MismatchOptions, PruneOption};
 use super::output;
+use super::sweep::Pictures;
 use super::trials::finished;
 use crate::diagnostic::{Colour, terminal};
 use crate::file::CommandFiles;
 use crate::load::LoadError;
 use crate::results::Document;
+use crate::scene::Violation;
 use crate::study::stress::StressTask;
 use crate::sweep::{Plan, Shard, SweepLine, SweepRun};
 use crate::trial::{StartError, engine_version};
@@ -29,6 +31,12 @@ pub(super) struct WorkerArguments {
     prune: PruneOption,
     #[command(flatten)]
     mismatch: MismatchOptions,
+    /// The folder of the pictures of runs
+    #[arg(long, value_name = "DIR", requires = "pictures")]
+    folder: Option<PathBuf>,
+    /// The runs whose pictures are written
+    #[arg(long, value_enum, default_value_t = Pictures::None, requires = "folder")]
+    pictures: Pictures,
 }
 
 /// Prints the fingerprint of the sweep, and then the line of each run whose index is read. Without a sweep it prints
@@ -45,7 +53,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
     let mismatch = arguments.mismatch.load(&mut files)?;
     let plan = Plan::read(file, !arguments.prune.no_prune, mismatch, &mut files)?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
-        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run).versioned()))
+        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run, arguments).versioned()))
     })
 }
 
@@ -72,8 +80,21 @@ fn serve(greeting: &str, line: impl Fn(u64) -> Option<serde_json::Result<String>
     Ok(Exit::Done)
 }
 
-fn line(plan: &Plan, run: &SweepRun<'_>) -> SweepLine {
-    let finished = plan.trial(run).map_err(Failure::from).and_then(|trial| Ok((finished(&trial, |_| false)?, trial)));
+/// Runs a trial, and writes its picture if it is wanted.
+fn line(plan: &Plan, run: &SweepRun<'_>, arguments: &WorkerArguments) -> SweepLine {
+    let is_drawn = |violations: &[Violation]| match arguments.pictures {
+        Pictures::None => false,
+        Pictures::Failed => !violations.is_empty(),
+        Pictures::All => true,
+    };
+    let finished = plan.trial(run).map_err(Failure::from).and_then(|trial| {
+        let finished = finished(&trial, is_drawn)?;
+        if let (Some(figures), Some(folder)) = (&finished.figures, &arguments.folder) {
+            let path = folder.join(format!("{}.svg", run.hash()));
+            CommandFiles::new().output("--out", &path)?.write(&figures.picture)?;
+        }
+        Ok((finished, trial))
+    });
     match finished {
         Ok((finished, trial)) => {
             SweepLine::ran(run, trial.scene.description, finished.violations.is_empty(), finished.result)

@@ -1,17 +1,18 @@
 //! Tables, pages and pictures of results, and statecharts of policies.
 
-mod bench_page;
 mod chart;
 mod number;
 mod outline;
+mod page;
 mod picture;
 mod shade;
 mod style;
 mod table;
 mod tables;
 
-pub use bench_page::bench_page;
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
+pub(crate) use page::sweep_page;
+pub use page::{RunFigures, bench_page, comparison_page, pareto_page, runs_page};
 pub(crate) use picture::profile_picture;
 pub use picture::{pareto_picture, picture, retrieval_picture};
 pub use table::Table;

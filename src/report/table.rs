@@ -46,6 +46,12 @@ impl Table {
         &self.headings
     }
 
+    /// The number of columns that name a row.
+    #[must_use]
+    pub fn names(&self) -> usize {
+        self.names
+    }
+
     /// The cells of every row, from left to right.
     #[must_use]
     pub fn rows(&self) -> &[Vec<String>] {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::shard::run_hash;
 use crate::results::RunResult;
 use crate::results::{Ending, Figures, TipShares};
 use crate::sweep::SweepRun;
@@ -77,7 +76,7 @@ impl SweepLine {
     fn new(run: &SweepRun<'_>, passed: bool, end: End) -> Self {
         let key = run.key();
         Self {
-            run: format!("{:016x}", run_hash(&key)),
+            run: run.hash(),
             key,
             scenes: run.scenes().name().to_owned(),
             trial: run.trial,

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::axis::{Axis, AxisValues};
+use super::shard::run_hash;
 use super::{Sweep, SweepScenes};
 use super::{family_axis, read};
 use crate::diagnostic::{Diagnostic, Source, Span};
@@ -76,6 +77,12 @@ impl<'s> SweepRun<'s> {
             let _ = write!(key, ", {name}={value}");
         }
         key + ", policy=" + &scenario::quoted(&self.policy().name)
+    }
+
+    /// The hash of its key, in hexadecimal digits.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        format!("{:016x}", run_hash(&self.key()))
     }
 
     /// The axes with the values of this run as written in the sweep.

@@ -35,6 +35,7 @@ enum Work {
     Links,
     Book,
     Web,
+    Browser,
     Examples,
     CheckoutIsUntouched,
 }
@@ -92,7 +93,7 @@ const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 19] = [
+const CHECKS: [Check; 20] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
@@ -160,6 +161,7 @@ const CHECKS: [Check; 19] = [
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
     // The whole workspace, so that dependencies have the features with which the tests were built.
     check("benches, each run once", &["test", "--workspace", "--features", FEATURES, "--bench", "*"]),
+    Check { title: "reports in a browser", work: Work::Browser },
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
 ];
 
@@ -212,7 +214,8 @@ impl Check {
             }
             Work::Links => Ok(links::check(root)?),
             Work::Book => the_book_is_built(root),
-            Work::Web => scripts_are_right(root),
+            Work::Web => with_browser_tools(web::check(root)),
+            Work::Browser => with_browser_tools(web::browse(root)),
             Work::Examples => examples_run(self.title, root),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
@@ -293,11 +296,11 @@ fn the_book_is_built(root: &Path) -> Result<(), CheckError> {
     }
 }
 
-/// Without npm, the bundles of the checkout remain as they are.
-fn scripts_are_right(root: &Path) -> Result<(), CheckError> {
-    match web::check(root) {
-        Err(WebError::NoNpm) if env::var_os("CI").is_none() => {
-            println!("      left out: {}", WebError::NoNpm);
+/// Outside of CI, a check is left out if its tools are missing.
+fn with_browser_tools(result: Result<(), WebError>) -> Result<(), CheckError> {
+    match result {
+        Err(missing @ (WebError::NoNpm | WebError::NoChromium)) if env::var_os("CI").is_none() => {
+            println!("      left out: {missing}");
             Ok(())
         }
         result => Ok(result?),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
-use std::{fs, io};
+use std::{env, fs, io};
 
 use thiserror::Error;
 
@@ -11,12 +11,17 @@ use crate::cargo::target_directory;
 /// The names of the bundles. Each is the script of one page.
 const BUNDLES: [&str; 1] = ["report.js"];
 
+/// The browser.
+const CHROMIUM: &str = "/usr/bin/chromium";
+
 /// A fault of the scripts, or of the tools that check them.
 #[derive(Debug, Error)]
 pub(crate) enum WebError {
     #[error("there is no npm; install Node.js 20 or newer with npm, then try again")]
     NoNpm,
-    #[error("`{command}` failed in `web` ({status}); what it found is above")]
+    #[error("there is no Chromium at {CHROMIUM}; install the Debian package `chromium`")]
+    NoChromium,
+    #[error("`{command}` failed ({status}); what it found is above")]
     Failed { command: String, status: ExitStatus },
     #[error("web/dist/{0} differs from the bundle of web/src; write it by `cargo x web`")]
     Outdated(&'static str),
@@ -44,6 +49,21 @@ pub(crate) fn check(root: &Path) -> Result<(), WebError> {
         }
     }
     Ok(())
+}
+
+/// Writes a report of the bench and one of a sweep with the tested program, and uses both in Chromium.
+pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
+    if !Path::new(CHROMIUM).exists() {
+        return Err(WebError::NoChromium);
+    }
+    let reports = target_directory(root).join("web/reports");
+    let program = target_directory(root).join("debug/vibrissa").with_extension(env::consts::EXE_EXTENSION);
+    let program = program.to_string_lossy().into_owned();
+    let [bench, sweep] = ["bench", "sweep"].map(|name| reports.join(name).to_string_lossy().into_owned());
+    run(root, &program, &["bench", "--world", "quasistatic", "--out", &bench])?;
+    run(root, &program, &["sweep", "web/test/sweep.yaml", "--out", &sweep])?;
+    let pages = [bench, sweep].map(|directory| format!("{directory}/index.html"));
+    run(&root.join("web"), "node", &["test/pages.mjs", &pages[0], &pages[1]])
 }
 
 /// Installs the pinned tools and checks the types.

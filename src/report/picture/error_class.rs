@@ -13,6 +13,11 @@ pub(super) fn class(error: f64) -> usize {
     LIMITS.iter().position(|limit| millimetres <= *limit).unwrap_or(LIMITS.len())
 }
 
+/// The colour of an error (m).
+pub(in crate::report) fn colour_of(error: f64) -> &'static str {
+    COLOURS[class(error)]
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]

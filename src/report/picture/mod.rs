@@ -2,17 +2,24 @@
 
 mod error_class;
 mod front;
+mod histogram;
 mod legend;
 mod map;
 mod pareto;
+mod plotted;
 mod profile;
 mod scale;
 mod shaft;
+mod state_band;
 mod strip;
 mod timeline;
 
+pub(super) use error_class::colour_of;
+pub(super) use histogram::histogram;
 pub use pareto::pareto_picture;
+pub(super) use plotted::PlottedRun;
 pub(crate) use profile::profile_picture;
+pub(super) use state_band::state_band;
 pub use strip::retrieval_picture;
 
 use std::iter;
@@ -57,6 +64,11 @@ const LINE: usize = 130;
 /// The same run gives the same picture, byte for byte. Nothing in it depends on the clock.
 #[must_use]
 pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String {
+    plotted(scene, policy, run, score).svg
+}
+
+/// The [`picture`] of a run, with the positions of its tip estimates and of its times.
+pub(super) fn plotted(scene: &Scene, policy: &str, run: &Run, score: &Score) -> PlottedRun {
     let trace = &run.trace;
     let tips = tips(trace, &scene.truth.surfaces, &scene.rig);
     let untraced = untraced(scene, trace);
@@ -77,7 +89,8 @@ pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String 
     for line in head {
         document = document.add(line);
     }
-    document.add(map.draw(scene, trace, &untraced, &tips)).add(legend).add(strips).to_string()
+    let svg = document.add(map.draw(scene, trace, &untraced, &tips)).add(legend).add(strips).to_string();
+    PlottedRun::new(svg, trace, &tips, &map, SIDES, (strips_top, bottom))
 }
 
 /// The sections of a reference contour (arc lengths in m) that a run did not trace.

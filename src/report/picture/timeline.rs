@@ -236,7 +236,7 @@ fn decades(tips: &[Tip]) -> ((f64, f64), Vec<(f64, String)>) {
 }
 
 /// Runs of ticks in the same state.
-fn intervals(trace: &Trace) -> Vec<(Option<usize>, Range<usize>)> {
+pub(super) fn intervals(trace: &Trace) -> Vec<(Option<usize>, Range<usize>)> {
     let mut intervals: Vec<(Option<usize>, Range<usize>)> = Vec::new();
     for (index, tick) in trace.ticks.iter().enumerate() {
         match intervals.last_mut() {
@@ -247,7 +247,7 @@ fn intervals(trace: &Trace) -> Vec<(Option<usize>, Range<usize>)> {
     intervals
 }
 
-fn name(trace: &Trace, state: Option<usize>) -> &str {
+pub(super) fn name(trace: &Trace, state: Option<usize>) -> &str {
     state.and_then(|state| trace.states.get(state)).map_or("Failure", String::as_str)
 }
 
@@ -262,6 +262,6 @@ fn numbered(trace: &Trace, state: Option<usize>) -> String {
 }
 
 /// The fill of a state's area.
-fn fill(shades: &[Shade], state: Option<usize>) -> String {
+pub(super) fn fill(shades: &[Shade], state: Option<usize>) -> String {
     state.and_then(|state| shades.get(state)).map_or_else(|| style::FAILURE.to_owned(), |shade| shade.fill())
 }

@@ -1,5 +1,7 @@
 //! The figures by which policies are compared.
 
+use serde_json::Value;
+
 use crate::results::RunResult;
 use crate::scene::Outcome;
 
@@ -10,10 +12,27 @@ pub struct Figure {
     pub name: &'static str,
     /// Its value in that unit. `None` if the run does not have it.
     pub of: fn(&RunResult) -> Option<f64>,
+    /// Its position in the JSON document of a run.
+    pointer: &'static str,
     /// True if larger values are better.
     pub larger_is_better: bool,
     /// True if runs that did not complete have it too.
     pub of_every_run: bool,
+}
+
+impl Figure {
+    /// Its value in the JSON document of a run. `None` if the run does not have it.
+    pub(super) fn in_document(&self, run: &Value) -> Option<f64> {
+        match run.pointer(self.pointer)? {
+            Value::String(outcome) => Some(f64::from(u8::from(outcome == Outcome::Completed.name()))),
+            value => value.as_f64(),
+        }
+    }
+
+    /// True if a run in a JSON document counts for the figure. The other figures of a run that did not complete would mislead.
+    pub(super) fn counts_in(&self, run: &Value) -> bool {
+        self.of_every_run || run.get("outcome").is_some_and(|outcome| outcome == Outcome::Completed.name())
+    }
 }
 
 /// All figures, with the names of the result of a run. The last is 1 for a completed run and else 0, so that its mean
@@ -21,30 +40,30 @@ pub struct Figure {
 pub const FIGURES: [Figure; 17] = [
     Figure {
         of_every_run: true,
-        ..higher("completed", |result| Some(f64::from(u8::from(result.outcome == Outcome::Completed))))
+        ..higher("completed", "/outcome", |result| Some(f64::from(u8::from(result.outcome == Outcome::Completed))))
     },
-    lower("error_mm.mean", |result| result.error_mm.mean),
-    lower("error_mm.p95", |result| result.error_mm.p95),
-    lower("error_mm.max", |result| result.error_mm.max),
-    higher("coverage", |result| Some(result.coverage)),
-    lower("hausdorff_mm", |result| result.hausdorff_mm),
-    lower("retrieval.radius_mm", |result| result.retrieval?.radius_mm.mean),
-    lower("retrieval.distance_mm", |result| result.retrieval?.distance_mm.mean),
-    lower("axis_mm", |result| result.axis_mm?.mean),
-    higher("corners.traced", |result| Some(result.corners?.traced as f64)),
-    lower("corners.place_mm", |result| result.corners?.place_mm.mean),
-    lower("corners.angle_rad", |result| result.corners?.angle_rad.mean),
-    lower("corners.time_s", |result| result.corners?.time_s.mean),
-    lower("corners.path_m", |result| result.corners?.path_m.mean),
-    lower("collisions", |result| Some(result.collisions.count as f64)),
-    lower("path_m", |result| Some(result.path_m)),
-    lower("sim_s", |result| Some(result.sim_s)),
+    lower("error_mm.mean", "/error_mm/mean", |result| result.error_mm.mean),
+    lower("error_mm.p95", "/error_mm/p95", |result| result.error_mm.p95),
+    lower("error_mm.max", "/error_mm/max", |result| result.error_mm.max),
+    higher("coverage", "/coverage", |result| Some(result.coverage)),
+    lower("hausdorff_mm", "/hausdorff_mm", |result| result.hausdorff_mm),
+    lower("retrieval.radius_mm", "/retrieval/radius_mm/mean", |result| result.retrieval?.radius_mm.mean),
+    lower("retrieval.distance_mm", "/retrieval/distance_mm/mean", |result| result.retrieval?.distance_mm.mean),
+    lower("axis_mm", "/axis_mm/mean", |result| result.axis_mm?.mean),
+    higher("corners.traced", "/corners/traced", |result| Some(result.corners?.traced as f64)),
+    lower("corners.place_mm", "/corners/place_mm/mean", |result| result.corners?.place_mm.mean),
+    lower("corners.angle_rad", "/corners/angle_rad/mean", |result| result.corners?.angle_rad.mean),
+    lower("corners.time_s", "/corners/time_s/mean", |result| result.corners?.time_s.mean),
+    lower("corners.path_m", "/corners/path_m/mean", |result| result.corners?.path_m.mean),
+    lower("collisions", "/collisions/count", |result| Some(result.collisions.count as f64)),
+    lower("path_m", "/path_m", |result| Some(result.path_m)),
+    lower("sim_s", "/sim_s", |result| Some(result.sim_s)),
 ];
 
-const fn lower(name: &'static str, of: fn(&RunResult) -> Option<f64>) -> Figure {
-    Figure { name, of, larger_is_better: false, of_every_run: false }
+const fn lower(name: &'static str, pointer: &'static str, of: fn(&RunResult) -> Option<f64>) -> Figure {
+    Figure { name, of, pointer, larger_is_better: false, of_every_run: false }
 }
 
-const fn higher(name: &'static str, of: fn(&RunResult) -> Option<f64>) -> Figure {
-    Figure { larger_is_better: true, ..lower(name, of) }
+const fn higher(name: &'static str, pointer: &'static str, of: fn(&RunResult) -> Option<f64>) -> Figure {
+    Figure { larger_is_better: true, ..lower(name, pointer, of) }
 }

@@ -90,6 +90,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ),
     ("bench --policy @/quick.fsm --world quasistatic --out @", "laws.fsm", "results.json", "--out"),
     ("bench --policy @/quick.fsm --world quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
+    ("run @/scene.yaml --out @", "quick.fsm", "index.html", "--out"),
+    ("compare @/quick.fsm @/laws.fsm @/scene.yaml --out @", "scene.yaml", "results.json", "--out"),
     (
         "families polygon --count 1 --policy @/quick.fsm --world quasistatic --out @",
         "laws.fsm",
@@ -106,7 +108,9 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "laws.fsm", "scene-quick-pareto.svg", "--out"),
     ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @", "laws.fsm", "results.jsonl", "--out"),
     ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @ --write @/OUT", "quick.fsm", "OUT", "--write"),
+    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "quick.fsm", "index.html", "--out"),
     ("sweep @/small.yaml --out @", "small.yaml", "results.jsonl", "--out"),
+    ("sweep @/small.yaml --out @", "quick.fsm", "index.html", "--out"),
     ("sweep @/small.yaml --out @", "quick.fsm", "results.jsonl", "--out"),
     ("sweep @/small.yaml --out @", "laws.fsm", "results.jsonl", "--out"),
     ("sweep @/small.yaml --out @", "scene.yaml", "results.jsonl", "--out"),

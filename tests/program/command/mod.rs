@@ -26,6 +26,7 @@ mod near_misses;
 pub(crate) mod program;
 mod property;
 mod recording;
+mod report;
 mod run;
 #[cfg(feature = "recording")]
 mod run_recording;

@@ -240,6 +240,8 @@ mod with_simulation {
         assert!(files.contains(&"disk-thesis.svg".to_owned()) && files.contains(&"index.html".to_owned()));
         let written = std::fs::read_to_string(out.join("results.json")).unwrap();
         assert_eq!(&serde_json::from_str::<Vec<Value>>(&written).unwrap(), rows);
+        let page = std::fs::read_to_string(out.join("index.html")).unwrap();
+        assert_eq!(page.matches("<section class=\"run\"").count(), rows.len());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::runs::{arc_of_tips, run_with};
 use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
-use vibrissa::report::{bench_page, bench_table, pooled_tips};
+use vibrissa::report::{RunFigures, bench_page, bench_table, pooled_tips};
 use vibrissa::results::{Hashes, Identity, MeanStd, MismatchIdentity, Retrieval, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::Outcome;
@@ -142,15 +142,31 @@ fn the_table_marks_figures_that_are_better_than_the_baselines() {
 
 #[test]
 fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
+    let attack = "<script>alert(\"1\")</script> & more";
+    let scene = "objects: [{circle: {centre: [0 m, 0 m], radius: 30 mm}}]\nstart: {position: [1 m, 1 m], heading: 0 deg}\n\
+                 stop: {time: 1 s}\npolicy: a.fsm\n";
+    let scene = scenario::read(&Source::new("disk.yaml", scene)).unwrap();
+    // The third tip is 2 mm off the disk.
+    let mut tips = arc_of_tips(0.0301, 0.0, TAU, 0.05 / 30.0);
+    tips[2] = Some(Point2::new(0.032, 0.0));
+    let mut run = run_with(&[tips]);
+    run.trace.states = vec![attack.to_owned()];
+    let score = Score::new(&run, &scene.truth, &scene.rig);
+    let figures = RunFigures::new(&scene, attack, &run, &score);
     let mut failed = result("disk", 1e-4);
     failed.outcome = Outcome::Failed;
-    failed.reason = Some("<script>alert(\"1\")</script> & more".to_owned());
+    failed.reason = Some(attack.to_owned());
     let rows = [BenchRow::new(failed, true), BenchRow::new(result("box", 1e-4), true)];
-    let picture = "<svg xmlns=\"x\"><clipPath id=\"map\"/>ä#%</svg>".to_owned();
-    let page = bench_page(&rows, &[picture.clone(), picture]);
-    assert_eq!((page.matches("<img ").count(), page.matches("<tr>").count()), (2, 6));
-    assert!(!page.contains("<script") && !page.contains("<svg") && !page.contains("id=\"map\""));
-    assert!(page.contains("1 of 2 runs completed") && page.contains("class=\"name worse\">failed"));
-    assert!(page.contains("src=\"data:image/svg+xml,%3Csvg xmlns=%22x%22%3E"));
-    assert!(page.contains("%C3%A4%23%25"));
+    let page = bench_page(&rows, &[figures.clone(), figures], None);
+    assert!(page.contains("1 of 2 runs passed") && page.contains("class=\"name worse\">failed"));
+    // The only scripts are the positions of two pictures and that of the page.
+    assert_eq!((page.matches("<script").count(), page.matches("</script").count()), (3, 3));
+    assert!(!page.contains("alert(\"1\")</script>") && !page.contains("<img") && !page.contains("src=\"http"));
+    // Identifiers of one picture do not occur in the other.
+    let identifiers: Vec<&str> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let mut unique = identifiers.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    assert_eq!(unique.len(), identifiers.len(), "{identifiers:?}");
+    assert!(page.contains("<b>2.00 mm</b> at (32 mm, 0 mm)"), "the largest error is not named");
 }

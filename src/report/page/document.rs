@@ -1,0 +1,51 @@
+//! The frame of a page.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// The style sheet of every page.
+const STYLE: &str = include_str!("page.css");
+/// The script of every page, from `web/src/report`.
+const SCRIPT: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/web/dist/report.js"));
+
+/// A page with its title, an introduction and its sections. It needs no other file.
+pub(super) fn page(title: &str, introduction: &Markup, sections: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    h1 { (title) }
+                    (introduction)
+                    (sections)
+                }
+                footer { "Written by vibrissa " (env!("CARGO_PKG_VERSION")) "." }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neither_the_script_nor_the_style_sheet_ends_its_element() {
+        assert!(!SCRIPT.to_lowercase().contains("</script") && !SCRIPT.contains("<!--"));
+        assert!(!STYLE.contains("</"));
+    }
+
+    #[test]
+    fn a_title_is_escaped() {
+        let page = page("a <b> & \"c\"", &html! {}, &html! {});
+        assert!(page.contains("<h1>a &lt;b&gt; &amp; &quot;c&quot;</h1>"), "{page}");
+    }
+}
