@@ -26,7 +26,9 @@ use crate::load::{self, GivenMismatch, Loaded};
 use crate::recording::Recorder;
 use crate::results::tick_lines;
 use crate::run::Run;
-use crate::trial::{Inputs, Trial, TrialResult};
+#[cfg(feature = "recording")]
+use crate::trial::TrialResult;
+use crate::trial::{Inputs, Trial};
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
