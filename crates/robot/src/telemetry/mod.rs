@@ -7,6 +7,7 @@ mod outbox;
 mod payload;
 #[cfg(feature = "mqtt")]
 mod publisher;
+mod source;
 #[cfg(feature = "mqtt")]
 mod telemetry_sink;
 mod topic;
@@ -21,6 +22,7 @@ pub use payload::{
 };
 #[cfg(feature = "mqtt")]
 pub use publisher::Publisher;
+pub use source::Source;
 #[cfg(feature = "mqtt")]
 pub use telemetry_sink::TelemetrySink;
 pub use topic::Topic;
