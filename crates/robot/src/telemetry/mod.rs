@@ -2,6 +2,8 @@
 //!
 //! [`Topic`] and the payloads need no MQTT client, so that other programs can use them. docs/telemetry.md describes them.
 
+mod lines;
+mod measurement;
 #[cfg(feature = "mqtt")]
 mod outbox;
 mod payload;
@@ -14,6 +16,8 @@ mod topic;
 #[cfg(feature = "mqtt")]
 mod translator;
 
+pub use lines::{LineError, lines};
+pub use measurement::{Field, FieldKind, MEASUREMENTS, Measurement};
 #[cfg(feature = "mqtt")]
 pub use outbox::Outbox;
 pub use payload::{
