@@ -23,6 +23,7 @@ pub(super) struct StepMessage {
     pub(super) origin_ns: u64,
     /// Start of the last sample period (ns), on the clock of the step. Without it, both clocks are the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "u64"))]
     pub(super) newest_ns: Option<u64>,
     /// True if the supervisor stops the robot, so that the machine waits.
     pub(super) is_paused: bool,
