@@ -1,6 +1,7 @@
 //! A real database, which gets the telemetry of an emulated robot and answers every query of the dashboard.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::path::PathBuf;
@@ -71,7 +72,10 @@ impl InfluxDb {
 
     /// The rows of all series of a query.
     fn rows(&self, query: &str) -> Vec<Vec<Value>> {
-        let encoded: String = query.bytes().map(|byte| format!("%{byte:02X}")).collect();
+        let mut encoded = String::new();
+        for byte in query.bytes() {
+            write!(encoded, "%{byte:02X}").unwrap();
+        }
         let answer = self.request("POST", &format!("/query?db=vibrissa&q={encoded}"), "");
         let answer: Value = serde_json::from_str(&answer).unwrap();
         let result = &answer["results"][0];

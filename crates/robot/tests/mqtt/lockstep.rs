@@ -105,7 +105,7 @@ fn a_controller_behind_the_broker_gives_the_commands_of_the_whole_loop_bit_for_b
             .unwrap();
         while let Some(record) = emulation.next_record() {
             if sensor_io.take(&record) {
-                let step = due.recv_timeout(PATIENCE).expect("the inputs arrive");
+                let step = due.recv_timeout(PATIENCE).unwrap();
                 remote.step(step, || 77_000_000_000, |_, command, _| remotely.push(bits(command))).unwrap();
                 while sent.pop().is_ok() {}
             }

@@ -16,7 +16,7 @@ use crate::wait_until;
 
 /// The time of silence after which the sensor IO stops the platform: `timeouts: {control: 120 ms}` of the configuration, a
 /// period of the supervisor, and much time for a loaded machine.
-const STOP: Duration = Duration::from_millis(1000);
+const STOP: Duration = Duration::from_secs(1);
 
 /// The robot with an actuator and a localisation over UDP, and a broker for both services.
 fn robot(name: &str, broker: SocketAddr) -> Outside {
