@@ -131,6 +131,7 @@ pub mod run;
 pub mod scenario;
 pub mod scene;
 pub mod score;
+pub mod services;
 pub mod solid;
 pub mod study;
 pub mod sweep;

@@ -15,6 +15,7 @@ use crate::property::RegressionsError;
 #[cfg(feature = "recording")]
 use crate::recording::{ReadRecordingError, RecordError};
 use crate::report::ChartTooLarge;
+use crate::services::MessagesError;
 use crate::study::ArrayCalibrationError;
 use crate::study::compare::OlderRunsError;
 use crate::study::stress::CaseError;
@@ -147,6 +148,10 @@ pub(super) enum Failure {
     NoRobotProgram(std::io::Error),
     #[error("{}: {cause}", path.display())]
     RobotConfig { path: PathBuf, cause: vibrissa_robot::config::ConfigError },
+    #[error("--name: {0}")]
+    RobotName(vibrissa_robot::config::ConfigError),
+    #[error("{}: {cause}", path.display())]
+    Messages { path: PathBuf, cause: MessagesError },
     #[error(
         "the counts do not agree with the mechanics of the whisker `{whisker}`; check --neutral, the positions, and the shaft in \
          the configuration, or measure `field_per_moment` with weights first: it must be right within a factor of five"

@@ -34,6 +34,7 @@ mod run;
 mod run_recording;
 #[cfg(test)]
 mod schema;
+mod services;
 mod stress;
 mod sweep;
 mod test;
@@ -99,6 +100,8 @@ enum Command {
     Drive(drive::DriveArguments),
     /// Send a signed machine to a robot, which verifies it and drives it at its next start
     Push(push::PushArguments),
+    /// Write the files of the services that store and show the telemetry of a robot
+    Services(services::ServicesArguments),
     /// Keep the part of a recording until a stop, as a test that `replay` repeats
     Keep(keep::KeepArguments),
     /// Repeat a recorded run through driver, perception and machine, and compare every result bit for bit
@@ -161,6 +164,7 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Drive(arguments) => drive::drive(arguments),
         Command::Push(arguments) => push::push(arguments),
+        Command::Services(arguments) => services::services(arguments),
         Command::Keep(arguments) => keep::keep(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
         Command::Graph(arguments) => graph::graph(arguments),

@@ -30,6 +30,8 @@ pub mod mqtt;
 pub mod program;
 #[cfg(feature = "recording")]
 pub mod recording;
+#[cfg(all(feature = "mqtt", feature = "recording"))]
+pub mod services;
 #[cfg(feature = "store")]
 pub mod store;
 pub mod telemetry;

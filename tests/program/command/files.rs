@@ -77,6 +77,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("compile @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
     ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "quick.fsm", "OUT", "--record"),
     ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "scene.yaml", "OUT", "--record"),
+    ("services generate @/quick.fsm --out @", "quick.fsm", "env.example", "--out"),
+    ("services generate @/quick.fsm --out @ --config @/array.yaml", "array.yaml", "compose.yaml", "--out"),
     ("calibrate @/measured.csv --out @", "measured.csv", "sets.csv", "--out"),
     ("calibrate --touches @/pressed.csv --out @", "pressed.csv", "touches.csv", "--out"),
     ("calibrate --touches @/pressed.csv --out @", "pressed.csv", "l0.yaml", "--out"),

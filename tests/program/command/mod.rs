@@ -31,6 +31,7 @@ mod run;
 #[cfg(feature = "recording")]
 mod run_recording;
 pub(crate) mod schema;
+mod services;
 mod stress;
 #[cfg(feature = "sim")]
 mod sweep;

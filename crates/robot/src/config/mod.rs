@@ -124,6 +124,16 @@ impl Config {
         Ok(config)
     }
 
+    /// The configuration of a robot with another name.
+    ///
+    /// # Errors
+    /// [`ConfigError::Inconsistent`] if the name cannot be a part of a topic.
+    pub fn named(self, name: &str) -> Result<Self, ConfigError> {
+        let config = Self { name: name.to_owned(), ..self };
+        config.check()?;
+        Ok(config)
+    }
+
     /// The whiskers with a board: index of the bus, index of the board on it, index of the whisker in the rig.
     pub fn boards(&self) -> impl Iterator<Item = (usize, usize, usize)> {
         self.buses.iter().enumerate().flat_map(move |(bus, config)| {

@@ -10,6 +10,7 @@ use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
 use super::loop_record::{LoopRecord, RecordSender, StepInput, TimedMessage, Violation};
 use super::report::TickReport;
+use super::schedule::StepTime;
 use super::violations::NewViolations;
 use crate::array::{Assembler, PoseHistory, Round, StampedPose, Zeroing, ZeroingFault, period_ns};
 use crate::config::Config;
@@ -96,8 +97,7 @@ impl ControlTask {
         &self.control
     }
 
-    /// Executes the step that is due at `due_ns`, with the samples until the sample period `last_slot`. Period 0 begins
-    /// at `origin_ns`.
+    /// Executes a step, with the samples until its last sample period.
     ///
     /// `observe` receives the control loop after every tick of the machine. `now` gives the time.
     ///
@@ -105,18 +105,17 @@ impl ControlTask {
     /// [`ZeroingFault`] if a whisker moves while its neutral value is measured.
     pub fn step(
         &mut self,
-        due_ns: u64,
-        last_slot: u64,
-        origin_ns: u64,
+        time: StepTime,
         now: impl Fn() -> u64,
         mut observe: impl FnMut(&Control, Command, &Tick),
     ) -> Result<Started, ZeroingFault> {
+        let StepTime { due_ns, last_slot, origin_ns, newest_ns } = time;
         let started_ns = now();
         self.take_poses();
         self.take_rounds();
         let is_paused = self.vitals.is_stopped.load(Ordering::Acquire);
         let lost = self.outputs.records.lost();
-        let input = StepInput { due_ns, started_ns, last_slot, origin_ns, is_paused, lost };
+        let input = StepInput { due_ns, started_ns, last_slot, origin_ns, newest_ns, is_paused, lost };
         self.outputs.records.send(&LoopRecord::Step(input));
         if let Some(zeroing) = &self.zeroing {
             let Some(neutral) = zeroing.finish()? else {
@@ -162,7 +161,6 @@ impl ControlTask {
         self.vitals.tick_lateness.add(started_ns.saturating_sub(due_ns));
         // Without room the supervisor is late, and its own watch reports that.
         let _ = self.outputs.commands.push(StampedCommand { time_ns: ended_ns, command });
-        let newest_ns = origin_ns + last_slot * self.sample_period_ns;
         let sample_age_ns = started_ns.saturating_sub(newest_ns) + self.assembler.delay_ns();
         self.vitals.sample_age.add(sample_age_ns);
         self.report(TickReport {

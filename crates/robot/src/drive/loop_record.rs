@@ -59,8 +59,10 @@ pub struct StepInput {
     pub started_ns: u64,
     /// The last sample period of the step.
     pub last_slot: u64,
-    /// Time of the sample period with the number 0 (ns).
+    /// Time of the sample period with the number 0 (ns), on the clock of the poses.
     pub origin_ns: u64,
+    /// Start of the last sample period (ns), on the clock of the step.
+    pub newest_ns: u64,
     /// True if the supervisor stops the robot, so that the machine waits.
     pub is_paused: bool,
     /// Records of the control task that have been lost until now, because the queue was full.
@@ -108,8 +110,9 @@ impl Records {
 /// Number of records in a queue. With four buses at 300 Hz and poses at 1 kHz, it is full after almost two seconds.
 const CAPACITY: usize = 4096;
 
-/// Creates the queues of the control task and of the supervisor.
-pub(crate) fn record_queues() -> ([RecordSender; 2], Records) {
+/// Creates the queues of the control task and of the supervisor, in this order.
+#[must_use]
+pub fn record_queues() -> ([RecordSender; 2], Records) {
     let (control, from_control) = rtrb::RingBuffer::new(CAPACITY);
     let (supervision, from_supervision) = rtrb::RingBuffer::new(CAPACITY);
     let sender = |producer| RecordSender { producer, lost: 0 };

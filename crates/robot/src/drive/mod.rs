@@ -9,9 +9,9 @@ mod supervisor;
 mod violations;
 
 pub use control_task::{ControlTask, Inputs, Outputs, Started};
-pub(crate) use loop_record::record_queues;
-pub use loop_record::{LoopRecord, RecordSender, Records, StepInput, TimedMessage, Violation};
+pub use loop_record::{LoopRecord, RecordSender, Records, StepInput, TimedMessage, Violation, record_queues};
 pub use record_sink::RecordSink;
 pub use report::TickReport;
+pub use schedule::StepTime;
 pub(crate) use schedule::{QUEUE, SUPERVISION_NS, tick_offset_ns};
 pub use supervisor::Supervisor;

@@ -23,8 +23,8 @@ use super::timeline::Timeline;
 use crate::array::{Assembler, StampedPose, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::{
-    ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, Records, SUPERVISION_NS, Started, Supervisor,
-    record_queues, tick_offset_ns,
+    ControlTask, Inputs, LoopRecord, Outputs, QUEUE, RecordSender, Records, SUPERVISION_NS, Started, StepTime,
+    Supervisor, record_queues, tick_offset_ns,
 };
 use crate::fault::FaultEvent;
 use crate::link::{CommandPacket, StampedCommand};
@@ -333,7 +333,8 @@ impl<P: Plant> Emulation<P> {
             now_ns
         };
         let control = &mut self.control;
-        let step = || control.step(due_ns, last_slot, 0, now, |_, command, tick| ticked = Some((command, *tick)));
+        let time = StepTime::new(due_ns, last_slot, 0, self.sample_period_ns);
+        let step = || control.step(time, now, |_, command, tick| ticked = Some((command, *tick)));
         let Some(step) = self.vitals.guard(step) else {
             self.control_thread.is_gone = true;
             return Ok(true);

@@ -82,7 +82,13 @@ impl CommandPacket {
     /// The acknowledgement of this packet.
     #[must_use]
     pub fn acknowledgement(&self) -> [u8; 12] {
-        joined(&[&ACKNOWLEDGEMENT, &self.sequence.to_le_bytes()])
+        Self::acknowledgement_of(self.sequence)
+    }
+
+    /// The acknowledgement of the packet with this sequence number.
+    #[must_use]
+    pub fn acknowledgement_of(sequence: u64) -> [u8; 12] {
+        joined(&[&ACKNOWLEDGEMENT, &sequence.to_le_bytes()])
     }
 
     /// The sequence number of an acknowledgement.

@@ -20,6 +20,8 @@ pub use dry_run::DryRun;
 #[cfg(feature = "mqtt")]
 pub use mqtt_actuator::MqttActuator;
 #[cfg(feature = "mqtt")]
+pub(crate) use mqtt_link::{MqttLink, PACKET_BYTES};
+#[cfg(feature = "mqtt")]
 pub use mqtt_poses::MqttPoses;
 pub use pose_packet::PosePacket;
 pub use udp::{UdpActuator, UdpPoses};

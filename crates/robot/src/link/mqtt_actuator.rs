@@ -8,7 +8,7 @@ use rtrb::{Producer, RingBuffer};
 use super::acknowledgements::Acknowledgements;
 use super::actuator::{Actuator, LinkError};
 use super::command_packet::CommandPacket;
-use super::mqtt_link::MqttLink;
+use super::mqtt_link::{MqttLink, PACKET_BYTES};
 use crate::config::MqttConfig;
 use crate::mqtt::Message;
 use crate::telemetry::Topic;
@@ -46,7 +46,8 @@ impl MqttActuator {
                 own.store(sequence, Ordering::Release);
             }
         };
-        let link = MqttLink::start(robot, "command", config, Topic::Acknowledged.of(robot), next, receive)?;
+        let answers = Some(Topic::Acknowledged.of(robot));
+        let link = MqttLink::start(robot, "command", config, PACKET_BYTES, answers, next, receive)?;
         let acknowledgements = is_acknowledged.then(Acknowledgements::default);
         Ok(Self { commands: producer, link, acknowledged, acknowledgements })
     }

@@ -11,13 +11,15 @@ use crate::mqtt::{Broker, BrokerEvent, Message, Options, RumqttBroker, Session, 
 
 /// The longest wait for an event.
 const LOOK: Duration = Duration::from_secs(1);
+/// Bytes of commands, acknowledgements or poses that the system keeps.
+pub(crate) const PACKET_BYTES: u32 = 4096;
 /// The time for the last message at the end.
 const FAREWELL: Duration = Duration::from_millis(200);
 
 /// A thread with a connection of its own. What cannot be sent at once is dropped, because old commands and poses are
 /// worthless. Dropping the link ends its thread.
 #[derive(Debug)]
-pub(super) struct MqttLink {
+pub(crate) struct MqttLink {
     must_end: Arc<AtomicBool>,
     waker: Waker,
     thread: Option<JoinHandle<()>>,
@@ -25,15 +27,17 @@ pub(super) struct MqttLink {
 
 impl MqttLink {
     /// A link of the robot with this name. It receives messages of the topic `subscription` by `receive`. It sends the
-    /// message that `next` has when the [`waker`](Self::waker) is called. `purpose` distinguishes the robot's links.
+    /// messages that `next` has when [`wake`](Self::wake) is called, of which the system keeps so many `bytes`. `purpose`
+    /// distinguishes the robot's links.
     ///
     /// # Errors
     /// The system's error if it has no more files or threads.
-    pub(super) fn start(
+    pub(crate) fn start(
         robot: &str,
         purpose: &str,
         config: &MqttConfig,
-        subscription: String,
+        bytes: u32,
+        subscription: Option<String>,
         next: impl FnMut() -> Option<Message> + Send + 'static,
         receive: impl FnMut(&[u8]) + Send + 'static,
     ) -> std::io::Result<Self> {
@@ -42,17 +46,17 @@ impl MqttLink {
             port: config.port,
             client: format!("vibrissa-{robot}-{purpose}"),
             last_will: None,
-            traffic: Traffic::Current,
+            traffic: Traffic::Current { bytes },
         };
         let (session, must_end) = (Session::new(RumqttBroker::new(options)?), Arc::new(AtomicBool::new(false)));
         let (waker, own) = (session.waker(), Arc::clone(&must_end));
-        let body = move || exchange(session, &own, &subscription, next, receive);
+        let body = move || exchange(session, &own, subscription.as_deref(), next, receive);
         let thread = Some(std::thread::Builder::new().name(format!("mqtt {purpose}")).spawn(body)?);
         Ok(Self { must_end, waker, thread })
     }
 
     /// Announces a message. This neither blocks nor allocates.
-    pub(super) fn wake(&self) {
+    pub(crate) fn wake(&self) {
         self.waker.wake_by_ref();
     }
 }
@@ -71,17 +75,17 @@ impl Drop for MqttLink {
 fn exchange<B: Broker>(
     mut session: Session<B>,
     must_end: &AtomicBool,
-    subscription: &str,
+    subscription: Option<&str>,
     mut next: impl FnMut() -> Option<Message>,
     mut receive: impl FnMut(&[u8]),
 ) {
     loop {
         // The flag comes before the last message.
         let has_ended = must_end.load(Ordering::Acquire);
-        if let Some(message) = next()
-            && session.is_connected()
-        {
-            let _ = session.publish(&message, None);
+        while let Some(message) = next() {
+            if session.is_connected() {
+                let _ = session.publish(&message, None);
+            }
         }
         if has_ended {
             break;
@@ -89,7 +93,9 @@ fn exchange<B: Broker>(
         match session.next_event(LOOK) {
             Some(BrokerEvent::Connected) => {
                 // It is the first request of a new connection, which accepts it.
-                let _ = session.subscribe(subscription);
+                if let Some(subscription) = subscription {
+                    let _ = session.subscribe(subscription);
+                }
             }
             // A message that the broker has kept is old.
             Some(BrokerEvent::Received { payload, is_retained: false }) => receive(&payload),

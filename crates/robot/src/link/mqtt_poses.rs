@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::Duration;
 
-use super::mqtt_link::MqttLink;
+use super::mqtt_link::{MqttLink, PACKET_BYTES};
 use super::pose_packet::{PosePacket, PoseReader};
 use crate::config::MqttConfig;
 use crate::telemetry::Topic;
@@ -33,7 +33,8 @@ impl MqttPoses {
                 let _ = sender.try_send(packet);
             }
         };
-        let link = MqttLink::start(robot, "pose", config, Topic::Pose.of(robot), || None, receive)?;
+        let subscription = Some(Topic::Pose.of(robot));
+        let link = MqttLink::start(robot, "pose", config, PACKET_BYTES, subscription, || None, receive)?;
         Ok(Self { poses, _link: link })
     }
 

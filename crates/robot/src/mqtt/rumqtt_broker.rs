@@ -45,14 +45,15 @@ pub struct Options {
 pub enum Traffic {
     /// Messages that keep their value: up to this many.
     Complete(u16),
-    /// Messages that are worthless once they are old: a few. The system also keeps only a few kilobytes of them.
-    Current,
+    /// Messages that are worthless once they are old: a few. The system keeps so many bytes of them.
+    Current {
+        /// Size of the system's buffer.
+        bytes: u32,
+    },
 }
 
 /// Messages that may wait in a connection with current messages.
 const CURRENT_MESSAGES: u16 = 4;
-/// Size (bytes) of the send buffer of such a connection.
-const CURRENT_BYTES: u32 = 4096;
 
 /// A connection by the library rumqttc. Its tasks run on the thread that waits for events.
 pub struct RumqttBroker {
@@ -105,8 +106,8 @@ impl RumqttBroker {
         network.set_connection_timeout(TIMEOUT_S);
         let capacity = match options.traffic {
             Traffic::Complete(messages) => messages,
-            Traffic::Current => {
-                network.set_tcp_send_buffer_size(CURRENT_BYTES);
+            Traffic::Current { bytes } => {
+                network.set_tcp_send_buffer_size(bytes);
                 CURRENT_MESSAGES
             }
         };

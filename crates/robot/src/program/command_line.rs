@@ -4,8 +4,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use super::control::{self, ControlArguments};
 use super::drive::{self, DriveArguments};
 use super::receive::{self, ReceiveArguments};
+use super::sensor_io::{self, SensorIoArguments};
 use super::sensors::{self, SensorsArguments};
 use super::status::{self, StatusArguments};
 use super::verdict::{self, GoodArguments, RejectArguments};
@@ -19,13 +21,17 @@ struct Arguments {
     command: Command,
 }
 
-const EXIT_STATUS: &str = "Exit status: 0 done, or a signal ended `drive`; 1 the machine or the program failed; 2 unusable input or device; \
+const EXIT_STATUS: &str = "Exit status: 0 done, or a signal ended the loop; 1 the machine or the program failed; 2 unusable input or device; \
                            3 the store has no machine; 130 `sensors` interrupted.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Drive the robot by a compiled machine until a signal ends the program
     Drive(DriveArguments),
+    /// Read the sensors and forward commands for a controller, which may run on another computer
+    SensorIo(SensorIoArguments),
+    /// Control the robot of a sensor IO by a compiled machine
+    Control(ControlArguments),
     /// Show the values, rates and errors of all sensors
     Sensors(SensorsArguments),
     /// Receive a signed machine on standard input and verify it. It is tentative until a run marks it good
@@ -43,6 +49,8 @@ enum Command {
 pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Drive(arguments) => drive::drive(&arguments),
+        Command::SensorIo(arguments) => sensor_io::sensor_io(&arguments),
+        Command::Control(arguments) => control::control(&arguments),
         Command::Sensors(arguments) => sensors::sensors(&arguments),
         Command::Receive(arguments) => receive::receive(&arguments),
         Command::Status(arguments) => status::status(&arguments),

@@ -11,22 +11,23 @@ use crate::fault::{FaultChange, FaultEvent};
 /// Prints every change of a fault, every violation of a contract when it begins, and every message of the policy.
 #[derive(Debug)]
 pub(super) struct EventLog {
-    program: Arc<Program>,
+    /// `None` in the sensor IO.
+    program: Option<Arc<Program>>,
 }
 
 impl EventLog {
-    /// The log of a robot that runs this program.
-    pub(super) fn new(program: Arc<Program>) -> Self {
+    /// The log of a program that runs this policy.
+    pub(super) fn new(program: Option<Arc<Program>>) -> Self {
         Self { program }
     }
 }
 
 impl RecordSink for EventLog {
     fn take(&mut self, record: &LoopRecord) {
-        match record {
-            LoopRecord::Event(event) => print_error(&fault(event)),
-            LoopRecord::Violation(begun) => print_error(&violation(&self.program, begun)),
-            LoopRecord::Message(logged) => print_error(&message(&self.program, logged)),
+        match (record, &self.program) {
+            (LoopRecord::Event(event), _) => print_error(&fault(event)),
+            (LoopRecord::Violation(begun), Some(program)) => print_error(&violation(program, begun)),
+            (LoopRecord::Message(logged), Some(program)) => print_error(&message(program, logged)),
             _ => {}
         }
     }

@@ -37,6 +37,11 @@ impl RealTime {
         }
         Self { is_memory_locked, has_priority }
     }
+
+    /// The priority of the threads, for messages.
+    pub(super) fn priority(self) -> &'static str {
+        if self.has_priority { "real-time priority" } else { "ordinary priority" }
+    }
 }
 
 /// Gives the calling thread a priority under `SCHED_FIFO`. False if the system refuses.

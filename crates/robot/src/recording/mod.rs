@@ -49,4 +49,6 @@ pub use recording::Recording;
 pub use records::{FileMessage, FileRecord, Records};
 pub use replay::{Replayed, replay};
 pub use setup::{Origin, Setup, SetupError, sha256};
+#[cfg(feature = "mqtt")]
+pub(crate) use step_message::{PoseMessage, RoundMessage};
 pub use writer::RecordingWriter;

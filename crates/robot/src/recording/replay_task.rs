@@ -13,7 +13,7 @@ use super::error::ReadError;
 use super::setup::Setup;
 use super::step_message::{RoundMessage, StepMessage};
 use super::tick_message::TickMessage;
-use crate::array::{Assembler, Round, StampedPose};
+use crate::array::{Assembler, Round, StampedPose, period_ns};
 use crate::drive::{ControlTask, Inputs, LoopRecord, Outputs, QUEUE, Records, TickReport, record_queues};
 use crate::link::StampedCommand;
 use crate::vitals::Vitals;
@@ -31,6 +31,7 @@ pub(super) struct ReplayTask {
     vitals: Arc<Vitals>,
     settings: CheckedSettings,
     program: Arc<Program>,
+    sample_period_ns: u64,
 }
 
 /// A replayed step.
@@ -63,8 +64,8 @@ impl ReplayTask {
         let outputs = Outputs { commands: sent, records: sender };
         let assembler = Assembler::new(config, &settings);
         let task = ControlTask::new(config, control, assembler, inputs, outputs, Arc::clone(&vitals));
-        let program = Arc::clone(setup.program());
-        Ok(Self { task, rounds, poses, commands, records, vitals, settings, program })
+        let (program, sample_period_ns) = (Arc::clone(setup.program()), period_ns(config.rig.sensing.sample_rate));
+        Ok(Self { task, rounds, poses, commands, records, vitals, settings, program, sample_period_ns })
     }
 
     /// Repeats a step with its recorded inputs. The result is a difference if the driver decodes an input differently.
@@ -79,7 +80,8 @@ impl ReplayTask {
         self.vitals.is_stopped.store(step.is_paused, Ordering::Release);
         let now = || step.started_ns;
         let task = &mut self.task;
-        let stepped = self.vitals.guard(|| task.step(step.due_ns, step.last_slot, step.origin_ns, now, |_, _, _| {}));
+        let time = step.time(self.sample_period_ns);
+        let stepped = self.vitals.guard(|| task.step(time, now, |_, _, _| {}));
         while self.commands.pop().is_ok() {}
         let mut tick = None;
         while let Some(record) = self.records.next_record() {

@@ -7,7 +7,7 @@ use vibrissa_runtime::geometry::{Point2, Pose};
 use super::number::Number;
 use crate::array::{BoardReading, ReadingState, Round, StampedPose};
 use crate::config::MAX_BOARDS;
-use crate::drive::StepInput;
+use crate::drive::{StepInput, StepTime};
 
 /// The inputs of a step of the control task.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -19,8 +19,12 @@ pub(super) struct StepMessage {
     pub(super) started_ns: u64,
     /// The last sample period of the step.
     pub(super) last_slot: u64,
-    /// Time of the sample period with the number 0 (ns).
+    /// Time of the sample period with the number 0 (ns), on the clock of the poses.
     pub(super) origin_ns: u64,
+    /// Start of the last sample period (ns), on the clock of the step. Without it, both clocks are the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "u64"))]
+    pub(super) newest_ns: Option<u64>,
     /// True if the supervisor stops the robot, so that the machine waits.
     pub(super) is_paused: bool,
     /// Records that have been lost until now, because the disk was too slow.
@@ -34,7 +38,7 @@ pub(super) struct StepMessage {
 /// A pose of the platform in the world frame.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(super) struct PoseMessage {
+pub(crate) struct PoseMessage {
     /// Time of the pose since the start of the program (ns).
     time_ns: u64,
     /// Position of the centre of mass, x (m).
@@ -48,7 +52,7 @@ pub(super) struct PoseMessage {
 /// One reading of every board on a bus.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub(super) struct RoundMessage {
+pub(crate) struct RoundMessage {
     /// Index of the bus.
     bus: u8,
     /// Number of the sample period.
@@ -94,7 +98,7 @@ enum BoardState {
 
 /// A reading that the driver does not decode as recorded.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct DecodingDifference {
+pub(crate) struct DecodingDifference {
     /// Index of the board.
     pub(super) board: usize,
     pub(super) recorded: ReadingState,
@@ -104,8 +108,15 @@ pub(super) struct DecodingDifference {
 
 impl StepMessage {
     pub(super) fn new(input: &StepInput, poses: Vec<PoseMessage>, rounds: Vec<RoundMessage>) -> Self {
-        let &StepInput { due_ns, started_ns, last_slot, origin_ns, is_paused, lost } = input;
-        Self { due_ns, started_ns, last_slot, origin_ns, is_paused, lost, poses, rounds }
+        let &StepInput { due_ns, started_ns, last_slot, origin_ns, newest_ns, is_paused, lost } = input;
+        let newest_ns = Some(newest_ns);
+        Self { due_ns, started_ns, last_slot, origin_ns, newest_ns, is_paused, lost, poses, rounds }
+    }
+
+    /// The time of the step, under this sample period (ns).
+    pub(super) fn time(&self, sample_period_ns: u64) -> StepTime {
+        let time = StepTime::new(self.due_ns, self.last_slot, self.origin_ns, sample_period_ns);
+        StepTime { newest_ns: self.newest_ns.unwrap_or(time.newest_ns), ..time }
     }
 }
 
@@ -136,7 +147,7 @@ impl RoundMessage {
     ///
     /// # Errors
     /// [`DecodingDifference`] with the first board whose result differs from the recorded one.
-    pub(super) fn decoded(&self, settings: &CheckedSettings) -> Result<Round, DecodingDifference> {
+    pub(crate) fn decoded(&self, settings: &CheckedSettings) -> Result<Round, DecodingDifference> {
         let silent = BoardReading { state: ReadingState::Silent, raw: RawRead::from_bytes(&[]) };
         let mut readings = [silent; MAX_BOARDS];
         let mut count = 0;
@@ -157,7 +168,7 @@ impl RoundMessage {
     }
 
     /// The index of the bus.
-    pub(super) fn bus(&self) -> usize {
+    pub(crate) fn bus(&self) -> usize {
         usize::from(self.bus)
     }
 }

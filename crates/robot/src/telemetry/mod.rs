@@ -2,17 +2,22 @@
 //!
 //! [`Topic`] and the payloads need no MQTT client, so that other programs can use them. docs/telemetry.md describes them.
 
+mod lines;
+mod measurement;
 #[cfg(feature = "mqtt")]
 mod outbox;
 mod payload;
 #[cfg(feature = "mqtt")]
 mod publisher;
+mod source;
 #[cfg(feature = "mqtt")]
 mod telemetry_sink;
 mod topic;
 #[cfg(feature = "mqtt")]
 mod translator;
 
+pub use lines::{LineError, lines};
+pub use measurement::{Field, FieldKind, MEASUREMENTS, Measurement};
 #[cfg(feature = "mqtt")]
 pub use outbox::Outbox;
 pub use payload::{
@@ -21,6 +26,7 @@ pub use payload::{
 };
 #[cfg(feature = "mqtt")]
 pub use publisher::Publisher;
+pub use source::Source;
 #[cfg(feature = "mqtt")]
 pub use telemetry_sink::TelemetrySink;
 pub use topic::Topic;

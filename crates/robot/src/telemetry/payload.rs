@@ -13,6 +13,8 @@ pub struct Numbered<T> {
     pub sequence: u64,
     /// Time of the content (s).
     pub time_s: f64,
+    /// The same time by the system's clock (s since 1970).
+    pub unix_s: f64,
     /// The content.
     #[serde(flatten)]
     pub content: T,
@@ -128,8 +130,6 @@ pub struct SentPacket {
 pub struct Health {
     /// Version of all payloads. It is raised when a key is removed or changes its meaning.
     pub version: u32,
-    /// Time of the system's clock (s since 1970). It relates all other times to the world.
-    pub unix_s: f64,
     /// True once the neutral values have been measured, so that the machine is executed.
     pub is_running: bool,
     /// The faults that are present.

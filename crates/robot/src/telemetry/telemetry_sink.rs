@@ -5,10 +5,10 @@ use std::sync::atomic::Ordering;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
-use vibrissa_runtime::machine::Program;
 
 use super::payload::{Durations, Health, Latency, MissedPeriods, Numbered, VERSION};
 use super::publisher::Publisher;
+use super::source::Source;
 use super::topic::Topic;
 use super::translator::{Note, Translator};
 use crate::config::Config;
@@ -38,36 +38,41 @@ pub struct TelemetrySink {
 #[derive(Debug)]
 struct Outlet {
     publisher: Publisher,
-    /// The name of each topic, in the order of [`Topic::ALL`].
+    /// The published topics and their names.
     topics: Vec<(Topic, Arc<str>)>,
     sequence: u64,
+    /// Start of the program by the system's clock (s since 1970).
+    started_unix_s: f64,
 }
 
 impl Outlet {
     fn send<T: Serialize>(&mut self, topic: Topic, time_ns: u64, content: T) {
+        let Some((_, name)) = self.topics.iter().find(|(own, _)| *own == topic) else { return };
         self.sequence += 1;
-        let message = Numbered { sequence: self.sequence, time_s: seconds(time_ns), content };
-        let name = self.topics.iter().find(|(own, _)| *own == topic);
+        let time_s = seconds(time_ns);
+        let message = Numbered { sequence: self.sequence, time_s, unix_s: self.started_unix_s + time_s, content };
         // Payloads have only keys that are text, and JSON has all of their values.
-        if let (Some((_, name)), Ok(payload)) = (name, serde_json::to_vec(&message)) {
-            let topic_name = Arc::clone(name);
-            self.publisher.push(Message { topic: topic_name, payload, is_retained: topic.is_retained() });
+        if let Ok(payload) = serde_json::to_vec(&message) {
+            self.publisher.push(Message { topic: Arc::clone(name), payload, is_retained: topic.is_retained() });
         }
     }
 }
 
 impl TelemetrySink {
-    /// A sink for a robot with this configuration and policy.
+    /// A sink for a robot with this configuration, whose records are those of `source`. `now_ns` is the time since the start
+    /// of the program.
     #[must_use]
-    pub fn new(config: &Config, program: &Program, publisher: Publisher) -> Self {
-        let topics = Topic::ALL.into_iter().map(|topic| (topic, topic.of(&config.name).into())).collect();
+    pub fn new(config: &Config, source: Source<'_>, publisher: Publisher, now_ns: u64) -> Self {
+        let name = source.name(&config.name);
+        let published = Topic::ALL.into_iter().filter(|topic| source.publishes(*topic));
+        let topics = published.map(|topic| (topic, topic.of(&name).into())).collect();
         Self {
-            outlet: Outlet { publisher, topics, sequence: 0 },
-            translator: Translator::new(config, program),
+            outlet: Outlet { publisher, topics, sequence: 0, started_unix_s: started_unix_s(now_ns) },
+            translator: Translator::new(config, source.program()),
             buses: config.buses.len(),
             next_health_ns: 0,
             next_latency_ns: 0,
-            now_ns: 0,
+            now_ns,
         }
     }
 
@@ -92,7 +97,6 @@ impl TelemetrySink {
         let missed = |phase| vitals.missed(phase);
         Health {
             version: VERSION,
-            unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |time| time.as_secs_f64()),
             is_running: vitals.is_running.load(Ordering::Acquire),
             faults: self.translator.faults().to_vec(),
             missed_periods: MissedPeriods {
@@ -127,6 +131,8 @@ impl RecordSink for TelemetrySink {
 
     fn pause(&mut self, now_ns: u64, vitals: &Vitals) {
         self.now_ns = now_ns;
+        // The system's clock may be set during the run, such as by the network after a start without a battery.
+        self.outlet.started_unix_s = started_unix_s(now_ns);
         vitals.is_broker_gone.store(self.outlet.publisher.is_broker_gone(), Ordering::Release);
         if now_ns >= self.next_health_ns {
             self.next_health_ns = now_ns + HEALTH_NS;
@@ -148,6 +154,11 @@ impl RecordSink for TelemetrySink {
         self.outlet.send(Topic::State, self.now_ns, self.translator.state());
         self.outlet.publisher.end();
     }
+}
+
+/// The start of the program by the system's clock (s since 1970), when `now_ns` have passed since then.
+fn started_unix_s(now_ns: u64) -> f64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |time| time.as_secs_f64()) - seconds(now_ns)
 }
 
 fn durations(histogram: &Histogram) -> Durations {

@@ -27,11 +27,13 @@ pub enum Topic {
     Acknowledged,
     /// From the localisation: [`PosePacket`](crate::link::PosePacket).
     Pose,
+    /// From the sensor IO to the controller: all inputs of a control step.
+    Inputs,
 }
 
 impl Topic {
     /// All topics.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Status,
         Self::State,
         Self::Health,
@@ -44,6 +46,7 @@ impl Topic {
         Self::Command,
         Self::Acknowledged,
         Self::Pose,
+        Self::Inputs,
     ];
 
     /// The last word of the topic.
@@ -62,6 +65,7 @@ impl Topic {
             Self::Command => "command",
             Self::Acknowledged => "acknowledged",
             Self::Pose => "pose",
+            Self::Inputs => "inputs",
         }
     }
 

@@ -52,13 +52,13 @@ pub(super) struct Translator {
 }
 
 impl Translator {
-    pub(super) fn new(config: &Config, program: &Program) -> Self {
+    pub(super) fn new(config: &Config, program: Option<&Program>) -> Self {
         let rig_whiskers: Vec<_> = config.rig.whiskers.iter().map(|whisker| whisker.name.clone()).collect();
         let fitted = |name: &String| rig_whiskers.contains(name).then(|| name.clone());
         Self {
-            policy_whiskers: program.whiskers.iter().map(fitted).collect(),
+            policy_whiskers: program.iter().flat_map(|program| &program.whiskers).map(fitted).collect(),
             buses: config.buses.iter().map(|bus| bus.device.display().to_string()).collect(),
-            states: program.states.iter().map(|state| state.name.to_string()).collect(),
+            states: program.iter().flat_map(|program| &program.states).map(|state| state.name.to_string()).collect(),
             // The loop does not start with other settings.
             assembler: config.settings().ok().map(|settings| Assembler::new(config, &settings)),
             zeroing: Some(Zeroing::new(rig_whiskers.len())),
@@ -66,7 +66,12 @@ impl Translator {
             rig_whiskers,
             samples: Vec::new(),
             packets: Vec::new(),
-            state: State { policy: program.name.clone(), state: None, has_failed: false, is_paused: false },
+            state: State {
+                policy: program.map_or_else(String::new, |program| program.name.clone()),
+                state: None,
+                has_failed: false,
+                is_paused: false,
+            },
             faults: Vec::new(),
             lost_records: 0,
         }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use vibrissa_robot::config::{Config, MqttConfig};
 use vibrissa_robot::drive::RecordSink;
 use vibrissa_robot::emulation::{Emulation, Settings, SwayingPlant};
-use vibrissa_robot::telemetry::{Publisher, TelemetrySink};
+use vibrissa_robot::telemetry::{Publisher, Source, TelemetrySink};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Artifact, Program};
 use vibrissa_runtime::rig::Rig;
@@ -38,7 +38,7 @@ impl EmulatedRobot {
         let (config, program) = parts();
         let mqtt = MqttConfig { host: broker.ip().to_string(), port: broker.port(), buffer };
         let publisher = Publisher::start(&config.name, &mqtt, |_| {}).unwrap();
-        let telemetry = Some(TelemetrySink::new(&config, &program, publisher));
+        let telemetry = Some(TelemetrySink::new(&config, Source::Loop(&program), publisher, 0));
         Self { telemetry, ..Self::new(settings) }
     }
 
@@ -86,7 +86,7 @@ impl EmulatedRobot {
     }
 }
 
-fn parts() -> (Config, Arc<Program>) {
+pub(crate) fn parts() -> (Config, Arc<Program>) {
     let config = Config::emulated(Rig::default(), Settings::default().noise_microtesla);
     let artifact = Artifact::from_bytes(include_bytes!("../../../runtime/fixtures/bang.machine")).unwrap();
     (config, Arc::new(artifact.program))

@@ -1,13 +1,16 @@
-//! Telemetry, commands and poses over a real MQTT broker, Mosquitto, which each test starts for itself.
+//! Telemetry, commands and poses over a real MQTT broker, Mosquitto, which each test starts for itself. One test also starts a
+//! database, InfluxDB.
 //!
-//! Without the program `mosquitto`, the tests are skipped with a message. In CI they fail.
+//! Without the program `mosquitto` or `influxd`, the tests are skipped with a message. In CI they fail.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
+mod database;
 mod drive;
 mod emulated;
 mod gate;
 mod listener;
+mod lockstep;
 mod mosquitto;
 mod outage;
 mod page;
@@ -17,6 +20,7 @@ mod robot;
 #[path = "../system_bus/server.rs"]
 #[expect(dead_code, reason = "the other test injects faults")]
 mod server;
+mod services;
 mod topics;
 
 use std::time::{Duration, Instant};

@@ -12,6 +12,7 @@ use crate::PATIENCE;
 pub(crate) struct Mosquitto {
     program: PathBuf,
     directory: tempfile::TempDir,
+    lines: String,
     child: Option<Child>,
     pub(crate) address: SocketAddr,
 }
@@ -19,17 +20,16 @@ pub(crate) struct Mosquitto {
 impl Mosquitto {
     /// Starts a broker. `None` if there is none on this machine, which CI does not accept.
     pub(crate) fn start() -> Option<Self> {
-        let Some(program) = find() else {
-            assert!(
-                std::env::var_os("CI").is_none_or(|ci| ci.is_empty()),
-                "CI needs the program `mosquitto` (Debian: `apt-get install mosquitto`)"
-            );
-            // Past the capture of the output, so that the message is seen.
-            let message = b"skipped: there is no program `mosquitto` (Debian: `apt-get install mosquitto`)\n";
-            std::io::stderr().write_all(message).unwrap();
-            return None;
-        };
-        let mut broker = Self { program, directory: tempfile::tempdir().unwrap(), child: None, address: free_port() };
+        Self::with(
+            "persistence false\nmax_queued_messages 0\nmax_inflight_messages 0\nlog_dest stderr\nlog_type error\n",
+        )
+    }
+
+    /// Starts a broker with further lines of its configuration.
+    pub(crate) fn with(lines: &str) -> Option<Self> {
+        let program = find("mosquitto", "mosquitto")?;
+        let directory = tempfile::tempdir().unwrap();
+        let mut broker = Self { program, directory, lines: lines.to_owned(), child: None, address: free_port() };
         // Another program may have taken the port meanwhile.
         while !broker.run() {
             broker.address = free_port();
@@ -58,11 +58,7 @@ impl Mosquitto {
     /// True if the broker accepts connections, false if it has ended.
     fn run(&mut self) -> bool {
         let config = self.directory.path().join("mosquitto.conf");
-        let text = format!(
-            "listener {} 127.0.0.1\nallow_anonymous true\npersistence false\n\
-             max_queued_messages 0\nmax_inflight_messages 0\nlog_dest stderr\nlog_type error\n",
-            self.address.port()
-        );
+        let text = format!("listener {} 127.0.0.1\nallow_anonymous true\n{}", self.address.port(), self.lines);
         std::fs::write(&config, text).unwrap();
         let mut command = Command::new(&self.program);
         let mut child = command.arg("-c").arg(config).stdin(Stdio::null()).stdout(Stdio::null()).spawn().unwrap();
@@ -87,11 +83,19 @@ impl Drop for Mosquitto {
     }
 }
 
-/// The program. Debian installs it in a folder that is not on every user's path.
-fn find() -> Option<PathBuf> {
+/// A program of a Debian package, which may be in a folder that is not on every user's path. `None` if there is none on this
+/// machine, which CI does not accept.
+pub(crate) fn find(program: &str, package: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::env::split_paths(&path).chain([PathBuf::from("/usr/sbin"), PathBuf::from("/usr/local/sbin")]);
-    folders.map(|folder| folder.join("mosquitto")).find(|file| file.is_file())
+    let found = folders.map(|folder| folder.join(program)).find(|file| file.is_file());
+    if found.is_none() {
+        let needed = format!("the program `{program}` (Debian: `apt-get install {package}`)");
+        assert!(std::env::var_os("CI").is_none_or(|ci| ci.is_empty()), "CI needs {needed}");
+        // Past the capture of the output, so that the message is seen.
+        std::io::stderr().write_all(format!("skipped: there is not {needed}\n").as_bytes()).unwrap();
+    }
+    found
 }
 
 /// A port that is free now.

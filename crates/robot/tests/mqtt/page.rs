@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use vibrissa_robot::services::Inputs;
 use vibrissa_robot::telemetry::{
     CommandLog, Dropped, FaultNote, Health, Latency, Numbered, Perception, Samples, State, Topic,
 };
@@ -48,4 +49,5 @@ fn the_examples_of_the_page_have_exactly_the_keys_of_the_payloads() {
     check::<Numbered<FaultNote>>(Topic::Events);
     check::<Numbered<Latency>>(Topic::Latency);
     check::<Dropped>(Topic::Dropped);
+    check::<Inputs>(Topic::Inputs);
 }

@@ -27,7 +27,7 @@ pub(crate) fn program(server: &Server, arguments: &[&str]) -> Command {
 /// The files of a run.
 pub(crate) struct Files {
     pub(crate) config: String,
-    machine: String,
+    pub(crate) machine: String,
     recordings: PathBuf,
 }
 
@@ -80,13 +80,19 @@ pub(crate) struct Outside {
 
 impl Outside {
     pub(crate) fn new(name: &str) -> Self {
+        Self::with(name, "")
+    }
+
+    /// The same, with further links of the configuration.
+    pub(crate) fn with(name: &str, links: &str) -> Self {
         let actuator = UdpSocket::bind("127.0.0.1:0").unwrap();
         actuator.set_read_timeout(Some(PATIENCE)).unwrap();
         // The program binds this port after it has been released here.
         let poses = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
         let links = format!(
             "actuator: {{udp: {{address: '{}'}}}}\n\
-             pose: {{udp: {{listen: '{poses}'}}}}\n",
+             pose: {{udp: {{listen: '{poses}'}}}}\n\
+             {links}",
             actuator.local_addr().unwrap()
         );
         let outside = Self {
