@@ -35,6 +35,7 @@ Commands:
   pieces  remove each part of vibrissa.fsm in turn and write what it is worth into docs/results/pieces.md; goes on where it was stopped
             --count N      run N scenes of each family (5)
             --program FILE use this program instead of building it
+  python  build the wheel of the Python package, install it into a fresh virtual environment and run its tests
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
@@ -59,6 +60,7 @@ pub(crate) enum Command {
     Results(Selection),
     Nightly(nightly::Options),
     Pieces(pieces::Options),
+    Python,
     Pi,
     Fuzz(u64),
 }
@@ -104,6 +106,7 @@ impl Command {
             "results" => return parse_results(arguments),
             "nightly" => return parse_nightly(arguments),
             "pieces" => return parse_pieces(arguments),
+            "python" => Self::Python,
             "pi" => Self::Pi,
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
