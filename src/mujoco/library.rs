@@ -29,18 +29,18 @@ pub struct LibraryError {
 /// The file of the library, if the program states it.
 static FILE: OnceLock<PathBuf> = OnceLock::new();
 
-/// Sets the file of MuJoCo's library, for programs that the loader's path does not lead to it. The plugin for cables is in the same folder,
-/// or in its folder `plugin`.
+/// Sets the file of MuJoCo's library, for a program whose loader does not find it. The plugin for cables is in the same
+/// folder, or in its folder `plugin`. Call it before the first simulation, because the library is loaded once.
 ///
 /// # Errors
-/// [`LibrarySet`] if it is set already.
-pub fn set_library(file: PathBuf) -> Result<(), LibrarySet> {
-    FILE.set(file).map_err(|_| LibrarySet)
+/// [`LibrarySet`] if another file is set already.
+pub fn set_library(file: &Path) -> Result<(), LibrarySet> {
+    if FILE.get_or_init(|| file.to_owned()) == file { Ok(()) } else { Err(LibrarySet) }
 }
 
-/// The file of MuJoCo's library is set already.
+/// Another file of MuJoCo's library is set already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the file of MuJoCo's library is set already; set it once, before the first run")]
+#[error("another file of MuJoCo's library is set already; set it once, before the first run")]
 pub struct LibrarySet;
 
 /// The folder of the library, if the program states it.

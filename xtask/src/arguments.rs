@@ -250,6 +250,12 @@ mod tests {
     }
 
     #[test]
+    fn the_python_package_has_a_command_without_arguments() {
+        assert_eq!(parse(&["python"]), Ok(Command::Python));
+        assert!(parse(&["python", "--release"]).is_err());
+    }
+
+    #[test]
     fn what_is_not_understood_is_named() {
         assert!(parse(&["bench", "--save", "--save"]).is_err());
         assert_eq!(parse(&["tset"]), Err(ArgumentError::UnknownCommand("tset".to_owned())));

@@ -1,4 +1,4 @@
-//! NumPy arrays.
+//! Arrays of `numpy`.
 
 use numpy::{AllowTypeChange, Element, PyArray1, PyArrayLikeDyn, PyArrayMethods};
 use pyo3::prelude::*;

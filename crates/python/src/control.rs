@@ -13,7 +13,7 @@ use crate::samples::GivenSamples;
 /// A control loop: perception, machine and motion. It is the loop that simulations and robots run.
 #[pyclass(module = "vibrissa")]
 pub(crate) struct Control {
-    control: vibrissa_runtime::control::Control,
+    inner: vibrissa_runtime::control::Control,
     /// Number of whiskers of the rig.
     width: usize,
     status: Status,
@@ -25,7 +25,7 @@ pub(crate) struct Command(signal::Command);
 
 impl Control {
     pub(crate) fn new(control: vibrissa_runtime::control::Control, width: usize) -> Self {
-        Self { control, width, status: Status::Running }
+        Self { inner: control, width, status: Status::Running }
     }
 }
 
@@ -50,7 +50,7 @@ impl Control {
             shear: shear_n,
             axial: axial_n,
         };
-        let (command, tick) = self.control.tick(&given.samples(self.width)?);
+        let (command, tick) = self.inner.tick(&given.samples(self.width)?);
         self.status = tick.status;
         Ok(Command(command))
     }
@@ -58,7 +58,7 @@ impl Control {
     /// Name of the innermost active state, or `Failure` or `Success` after the end.
     #[getter]
     fn state(&self) -> &str {
-        self.control.machine().state_name()
+        self.inner.machine().state_name()
     }
 
     /// `running`, `failed` or `succeeded`.
@@ -74,14 +74,14 @@ impl Control {
     /// The reason of the end. `None` while the machine runs.
     #[getter]
     fn reason(&self) -> Option<String> {
-        let machine = self.control.machine();
+        let machine = self.inner.machine();
         machine.failure().map(ToString::to_string).or_else(|| machine.success().map(str::to_owned))
     }
 
     /// The messages that the newest tick has logged.
     #[getter]
     fn messages(&self) -> Vec<String> {
-        let machine = self.control.machine();
+        let machine = self.inner.machine();
         let program = machine.program();
         let shown = |LoggedMessage { message, numbers }| {
             program.outputs.messages[message].shown(&numbers, &program.whiskers).to_string()
@@ -91,8 +91,8 @@ impl Control {
 
     /// The whiskers that the machine binds, as perceived in the newest tick: arrays with a row for each.
     fn perceived<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let perception = self.control.perception();
-        let names = &self.control.machine().program().whiskers;
+        let perception = self.inner.perception();
+        let names = &self.inner.machine().program().whiskers;
         let fitted: Vec<usize> = perception.fitted().map(|(whisker, _)| whisker).collect();
         let each = |value: &dyn Fn(usize) -> f64| list(py, fitted.iter().map(|&whisker| value(whisker)).collect());
         let perceived = PyDict::new(py);

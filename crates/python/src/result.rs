@@ -14,7 +14,7 @@ use crate::{samples, ticks};
 #[pyclass(frozen, module = "vibrissa")]
 pub(crate) struct Result {
     trial: Trial,
-    result: TrialResult,
+    scored: TrialResult,
     /// The figures, as `run --json` prints them.
     #[pyo3(get)]
     figures: Py<PyDict>,
@@ -33,20 +33,20 @@ impl Result {
     pub(crate) fn new(
         py: Python<'_>,
         trial: Trial,
-        result: TrialResult,
+        scored: TrialResult,
         recorded: Option<Vec<Vec<Sample>>>,
     ) -> PyResult<Self> {
-        let text = serde_json::to_string(&trial.document(&result).versioned()).map_err(error)?;
+        let text = serde_json::to_string(&trial.document(&scored).versioned()).map_err(error)?;
         let figures = py.import("json")?.call_method1("loads", (text,))?.cast_into::<PyDict>()?;
         let width = trial.assumed_rig.whiskers.len();
         let samples = recorded.map(|recorded| samples::dictionary(py, &recorded, width).map(Bound::unbind));
         Ok(Self {
             figures: figures.unbind(),
-            ticks: ticks::dictionary(py, &result.run.trace)?.unbind(),
-            plots: ticks::plots(py, &result.run.trace)?.unbind(),
+            ticks: ticks::dictionary(py, &scored.run.trace)?.unbind(),
+            plots: ticks::plots(py, &scored.run.trace)?.unbind(),
             samples: samples.transpose()?,
             trial,
-            result,
+            scored,
         })
     }
 }
@@ -56,43 +56,43 @@ impl Result {
     /// `completed`, `timeout`, `failed` or `diverged`.
     #[getter]
     fn outcome(&self) -> &'static str {
-        self.result.run.outcome.name()
+        self.scored.run.outcome.name()
     }
 
     /// The reason of the outcome. `None` if a stop condition completed the run.
     #[getter]
     fn reason(&self) -> Option<&str> {
-        self.result.run.reason.as_deref()
+        self.scored.run.reason.as_deref()
     }
 
     /// The expectations of the scenario that do not hold.
     #[getter]
     fn violations(&self) -> Vec<String> {
-        self.result.violations.iter().map(ToString::to_string).collect()
+        self.scored.violations.iter().map(ToString::to_string).collect()
     }
 
     /// Names of the whiskers that the policy binds: the columns of the ticks.
     #[getter]
     fn whiskers(&self) -> Vec<&str> {
-        self.result.run.trace.whiskers.iter().map(String::as_str).collect()
+        self.scored.run.trace.whiskers.iter().map(String::as_str).collect()
     }
 
     /// Names of the states. The ticks have their indices.
     #[getter]
     fn states(&self) -> Vec<&str> {
-        self.result.run.trace.states.iter().map(String::as_str).collect()
+        self.scored.run.trace.states.iter().map(String::as_str).collect()
     }
 
     /// The messages of the policy: time (s), name of the state, text.
     #[getter]
     fn messages(&self) -> Vec<(f64, Option<String>, String)> {
-        ticks::messages(&self.result.run.trace)
+        ticks::messages(&self.scored.run.trace)
     }
 
     /// The picture of the run, an SVG file.
     fn picture(&self, py: Python<'_>) -> String {
-        let (trial, result) = (&self.trial, &self.result);
-        py.detach(|| picture(&trial.scene, &trial.policy_label(), &result.run, &result.score))
+        let (trial, scored) = (&self.trial, &self.scored);
+        py.detach(|| picture(&trial.scene, &trial.policy_label(), &scored.run, &scored.score))
     }
 
     fn __repr__(&self) -> String {

@@ -140,7 +140,7 @@ impl Trial {
     /// The exact outlines that count as traced, as polylines with points at most this far apart.
     #[pyo3(signature = (spacing_m = 1e-3))]
     fn outlines<'py>(&self, py: Python<'py>, spacing_m: f64) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        if !(spacing_m >= 1e-6) {
+        if spacing_m.is_nan() || spacing_m < 1e-6 {
             return Err(error("`spacing_m` must be at least 1e-6"));
         }
         let outline = |contour: &vibrissa::geometry::Contour| {
@@ -204,7 +204,7 @@ pub(crate) fn has_mujoco() -> bool {
 #[pyfunction]
 pub(crate) fn use_mujoco(file: PathBuf) -> PyResult<()> {
     #[cfg(feature = "sim")]
-    return vibrissa::mujoco::set_library(file).map_err(error);
+    return vibrissa::mujoco::set_library(&file).map_err(error);
     #[cfg(not(feature = "sim"))]
     return Err(error(format_args!("{}: this build has no world `mujoco`", file.display())));
 }

@@ -1,5 +1,5 @@
 import os
-from typing import Any, Union
+from typing import Any, Union, final
 
 import numpy as np
 import numpy.typing as npt
@@ -10,13 +10,17 @@ Numbers = npt.ArrayLike
 
 class Error(Exception): ...
 
+@final
 class Text:
-    text: str
-    name: str
-    def __init__(self, text: str, name: str = "text") -> None: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    def __new__(cls, text: str, name: str = "text") -> Text: ...
 
+@final
 class Rig:
-    def __init__(self, scenario: Input | None = None) -> None: ...
+    def __new__(cls, scenario: Input | None = None) -> Rig: ...
     @property
     def whiskers(self) -> list[str]: ...
     @property
@@ -28,16 +32,25 @@ class Rig:
     @property
     def yaw_rate_limit_rad_s(self) -> float: ...
 
+@final
 class Parameter:
-    name: str
-    description: str
-    value: str
-    default: str
-    range: tuple[str, str] | None
-    choices: list[str]
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def value(self) -> str: ...
+    @property
+    def default(self) -> str: ...
+    @property
+    def range(self) -> tuple[str, str] | None: ...
+    @property
+    def choices(self) -> list[str]: ...
 
+@final
 class Machine:
-    warnings: str
+    @property
+    def warnings(self) -> str: ...
     @classmethod
     def load(cls, source: bytes | str | os.PathLike[str]) -> Machine: ...
     def to_bytes(self) -> bytes: ...
@@ -51,6 +64,7 @@ class Machine:
     @property
     def parameters(self) -> list[Parameter]: ...
 
+@final
 class Command:
     @property
     def velocity_m_s(self) -> npt.NDArray[np.float64]: ...
@@ -58,6 +72,7 @@ class Command:
     def yaw_rate_rad_s(self) -> float: ...
     def velocity_body_m_s(self, heading_rad: float) -> tuple[float, float]: ...
 
+@final
 class Control:
     def tick(
         self,
@@ -78,11 +93,16 @@ class Control:
     def messages(self) -> list[str]: ...
     def perceived(self) -> dict[str, Any]: ...
 
+@final
 class Result:
-    figures: dict[str, Any]
-    ticks: dict[str, npt.NDArray[Any]]
-    plots: dict[str, npt.NDArray[np.float64]]
-    samples: dict[str, npt.NDArray[Any]] | None
+    @property
+    def figures(self) -> dict[str, Any]: ...
+    @property
+    def ticks(self) -> dict[str, npt.NDArray[Any]]: ...
+    @property
+    def plots(self) -> dict[str, npt.NDArray[np.float64]]: ...
+    @property
+    def samples(self) -> dict[str, npt.NDArray[Any]] | None: ...
     @property
     def outcome(self) -> str: ...
     @property
@@ -97,11 +117,16 @@ class Result:
     def messages(self) -> list[tuple[float, str | None, str]]: ...
     def picture(self) -> str: ...
 
+@final
 class Observation:
-    traced_m: float
-    crashed: bool
-    outcome: str | None
-    reason: str | None
+    @property
+    def traced_m(self) -> float: ...
+    @property
+    def crashed(self) -> bool: ...
+    @property
+    def outcome(self) -> str | None: ...
+    @property
+    def reason(self) -> str | None: ...
     @property
     def time_s(self) -> float: ...
     @property
@@ -117,14 +142,17 @@ class Observation:
     @property
     def body_touches(self) -> bool: ...
 
+@final
 class Episode:
     def step(self, forward_m_s: float, left_m_s: float, yaw_rate_rad_s: float) -> Observation: ...
     def result(self) -> Result: ...
 
+@final
 class Trial:
-    warnings: str
-    def __init__(
-        self,
+    @property
+    def warnings(self) -> str: ...
+    def __new__(
+        cls,
         scenario: Input,
         policy: Policy | None = None,
         *,
@@ -136,7 +164,7 @@ class Trial:
         prune: bool = True,
         jitter: tuple[float, float] | None = None,
         time_limit_s: float | None = None,
-    ) -> None: ...
+    ) -> Trial: ...
     def run(self, *, samples: bool = False) -> Result: ...
     def begin(self) -> Episode: ...
     @property
