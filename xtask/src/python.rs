@@ -15,7 +15,7 @@ use crate::platform::MUJOCO_VERSION;
 
 /// The release of maturin that builds the wheel.
 const MATURIN: &str = "maturin>=1.9.4,<2";
-/// What the tests need besides the wheel and NumPy.
+/// What the tests need besides the wheel.
 const PACKAGES: [&str; 2] = ["gymnasium>=1.0", "pytest>=8"];
 
 /// Why the package was not built or its tests failed, and what to do.
