@@ -67,7 +67,7 @@
 //! | input texts and their errors | [`scenario`], [`policy`], [`outline`], [`diagnostic`], [`built_in`] |
 //! | scenes and exact geometry | [`scene`], [`solid`], [`geometry`], [`physics`] |
 //! | simulators | [`world`], [`mujoco`], [`quasi_static`] |
-//! | runs and their evaluation | [`trial`], [`run`], [`score`], [`results`], [`inspect`], `recording` |
+//! | runs and their evaluation | [`request`], [`trial`], [`run`], [`score`], [`results`], [`inspect`], `recording` |
 //! | many runs | [`study`], [`family`], [`sweep`], [`tune`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
@@ -126,6 +126,7 @@ pub mod quasi_static;
 #[cfg(feature = "recording")]
 pub mod recording;
 pub mod report;
+pub mod request;
 pub mod results;
 pub mod run;
 pub mod scenario;

@@ -15,6 +15,7 @@ use crate::property::RegressionsError;
 #[cfg(feature = "recording")]
 use crate::recording::{ReadRecordingError, RecordError};
 use crate::report::ChartTooLarge;
+use crate::request::{RequestError, RequestFault};
 use crate::services::MessagesError;
 use crate::study::ArrayCalibrationError;
 use crate::study::compare::OlderRunsError;
@@ -24,7 +25,7 @@ use crate::trial::{ExecuteError, StartError, Trial};
 use crate::tune::{AxisError, CandidateError};
 use vibrissa_robot::recording::{KeepError, WriteError};
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
-use vibrissa_runtime::machine::SetError;
+use vibrissa_runtime::machine::{ArtifactError, SetError};
 use vibrissa_runtime::rig::UnknownWhisker;
 
 use super::exit::Exit;
@@ -35,6 +36,8 @@ use super::output;
 pub(super) enum Failure {
     #[error(transparent)]
     Load(#[from] LoadError),
+    #[error(transparent)]
+    GivenMachine(ArtifactError),
     #[error("cannot make the folder {}: {cause}; choose another path with --out", path.display())]
     Folder { path: PathBuf, cause: std::io::Error },
     #[error(transparent)]
@@ -255,6 +258,17 @@ impl From<CandidateError> for Failure {
         match error {
             CandidateError::Draw(cause) => Self::NoDraw(cause),
             CandidateError::Set(cause) => Self::FamilySetting(cause),
+        }
+    }
+}
+
+impl From<RequestError> for Failure {
+    fn from(error: RequestError) -> Self {
+        match error.into_fault() {
+            RequestFault::Load(cause) => Self::Load(cause),
+            RequestFault::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
+            RequestFault::Set(cause) => Self::Set(cause),
+            RequestFault::Machine(cause) => Self::GivenMachine(cause),
         }
     }
 }

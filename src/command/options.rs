@@ -16,7 +16,7 @@ use super::values::{parse_friction, parse_jobs, parse_seed};
 use crate::built_in::{POLICIES, TextFile};
 use crate::family::{Family, Values};
 use crate::file::CommandFiles;
-use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy};
 use crate::scene::{Scene, WorldKind, WorldSetup};
 use crate::study::bench::Conditions;
 use crate::trial::{Threads, processors};
@@ -86,9 +86,14 @@ pub(super) struct WorldOption {
 }
 
 impl WorldOption {
+    /// The simulator, if one is given.
+    pub(super) fn kind(&self) -> Option<WorldKind> {
+        self.world.map(World::kind)
+    }
+
     /// The world of a run of `scene`.
     pub(super) fn of(&self, scene: &Scene) -> WorldKind {
-        self.world.map(World::kind).or(scene.world).unwrap_or_default()
+        self.kind().or(scene.world).unwrap_or_default()
     }
 }
 
@@ -104,9 +109,9 @@ pub(super) struct PruneOption {
 #[derive(Debug, Args)]
 pub(super) struct WorldOptions {
     #[command(flatten)]
-    world: WorldOption,
+    pub(super) world: WorldOption,
     #[command(flatten)]
-    prune: PruneOption,
+    pub(super) prune: PruneOption,
 }
 
 impl WorldOptions {
@@ -154,40 +159,33 @@ impl MismatchOptions {
 pub(super) struct Settings {
     /// Set a parameter of the policy: --set "speed=80 mm/s", --set trust=false
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_setting)]
-    settings: Vec<Setting>,
-}
-
-/// A parameter and its value.
-#[derive(Debug, Clone)]
-struct Setting {
-    name: String,
-    value: ParameterValue,
+    settings: Vec<(String, ParameterValue)>,
 }
 
 impl Settings {
     /// True if the parameter `name` is set.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.settings.iter().any(|setting| setting.name == name)
+        self.settings.iter().any(|(set, _)| set == name)
+    }
+
+    /// The names of the parameters and their values.
+    pub(super) fn pairs(&self) -> &[(String, ParameterValue)] {
+        &self.settings
     }
 
     /// A policy with its parameters set. Its hash depends on them.
     ///
     /// # Errors
     /// [`SetError`] if the policy does not have such a parameter, or if the value is out of its range.
-    pub(super) fn of(&self, mut policy: Loaded<Policy>) -> Result<Loaded<Policy>, SetError> {
-        let program = &mut policy.value.artifact.program;
-        let mut settings = Vec::with_capacity(self.settings.len());
-        for Setting { name, value } in &self.settings {
-            settings.push((name.as_str(), program.set_value(name, value)?));
-        }
-        Ok(Loaded { hash: with_settings(policy.hash, settings.into_iter()), ..policy })
+    pub(super) fn of(&self, policy: Loaded<Policy>) -> Result<Loaded<Policy>, SetError> {
+        load::set(policy, &self.settings)
     }
 }
 
-fn parse_setting(text: &str) -> Result<Setting, String> {
+fn parse_setting(text: &str) -> Result<(String, ParameterValue), String> {
     let (name, value) = name_and_value(text)?;
     let value = ParameterValue::parse(value).map_err(|error| format!("{error}; {}", error.hint()))?;
-    Ok(Setting { name: name.to_owned(), value })
+    Ok((name.to_owned(), value))
 }
 
 fn parse_family_value(text: &str) -> Result<(String, Quantity), String> {

@@ -2,11 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::Instant;
 
 use clap::Args;
-use sha2::Digest;
 #[cfg(feature = "recording")]
 use vibrissa_runtime::machine::Artifact;
 
@@ -16,19 +13,20 @@ use super::inspect::{InspectionOptions, inspect};
 use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::reports::Reports;
-use super::trials::{inputs, run_with_bar};
+use super::trials::run_with_bar;
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
-use crate::load::{self, GivenMismatch, Loaded};
+use crate::load::GivenMismatch;
 #[cfg(feature = "recording")]
 use crate::recording::Recorder;
+use crate::request::{Input, PolicyInput, TrialRequest};
 use crate::results::tick_lines;
 use crate::run::Run;
+use crate::trial::Trial;
 #[cfg(feature = "recording")]
 use crate::trial::TrialResult;
-use crate::trial::{Inputs, Trial};
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -191,27 +189,25 @@ fn trial(
     files: &mut CommandFiles,
     warned: &mut BTreeSet<String>,
 ) -> Result<Prepared, Failure> {
-    let before = Instant::now();
-    let source = load::read(path, files)?;
-    let Loaded { value: mut scene, hash: mut scenario_hash } = load::scenario_in(&source, files)?;
-    mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(path))?;
-    let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
-    if let Some(text) = &policy.value.text
+    let WorldOptions { world, prune } = &arguments.world;
+    let request = TrialRequest {
+        policy: arguments.policy.clone().map(PolicyInput::File),
+        settings: arguments.settings.pairs().to_vec(),
+        world: world.kind(),
+        prune: !prune.no_prune,
+        seed: arguments.seed,
+        ..TrialRequest::new(Input::File(path.to_owned()))
+    };
+    let (trial, policy) = request.prepare_in(mismatch, files)?;
+    if let Some(text) = &policy.text
         && warned.insert(text.source.name.clone())
     {
-        output::warnings(&policy.value);
+        output::warnings(&policy);
     }
-    let Loaded { value: policy, hash: policy_hash } = arguments.settings.of(policy)?;
-    let seed = arguments.seed.unwrap_or(scene.seed);
-    let world = arguments.world.of(&scene);
-    let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash.finalize());
-    output::warn_of_rates(path, &scene.rig, &policy.artifact.program);
-    let text = policy.text.map(|text| text.source);
-    let trial = Trial { world, seed, ..Trial::new(scene, Arc::new(policy.artifact.program.clone())) };
-    let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
+    output::warn_of_rates(path, &trial.scene.rig, &policy.artifact.program);
     Ok(Prepared {
         trial,
-        text,
+        text: policy.text.map(|text| text.source),
         #[cfg(feature = "recording")]
         artifact: policy.artifact,
     })

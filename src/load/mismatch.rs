@@ -29,6 +29,11 @@ impl GivenMismatch {
         Ok(Self { file, seed })
     }
 
+    /// The mismatch of a text.
+    pub(crate) fn of_text(source: Source, seed: Option<u64>) -> Result<Self, LoadError> {
+        Ok(Self { file: Some(mismatch_in(source)?), seed })
+    }
+
     /// The same, with the built-in plausible array if no file is given.
     pub(crate) fn or_plausible(self) -> Result<Self, LoadError> {
         let built_in = || mismatch_in(Source::new(PLAUSIBLE_MISMATCH.path, PLAUSIBLE_MISMATCH.text));

@@ -12,8 +12,8 @@ pub(crate) use mismatch::GivenMismatch;
 #[cfg(feature = "lsp")]
 pub(crate) use policy::library_for_editor;
 pub(crate) use policy::{
-    Policy, PolicyFile, PolicyText, built_in_policy, chart, policy, policy_file, policy_for, policy_text, program,
-    tested_policy, with_libraries, with_settings,
+    Policy, PolicyFile, PolicyText, built_in_policy, chart, policy, policy_file, policy_for, policy_in, policy_text,
+    program, set, tested_policy, with_libraries, with_settings,
 };
 pub(crate) use recording::recording;
 pub(crate) use scenario::{

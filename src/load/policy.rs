@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
-use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, Program};
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, ParameterValue, Program, SetError};
 
 use super::scenario::beside;
 use super::text::{SIZE_LIMIT, name, reason, text};
@@ -81,7 +81,7 @@ pub(crate) fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loa
     let Loaded { value, hash } = policy_file(path, files)?;
     match value {
         PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
-        PolicyFile::Text(source) => compiled(&source, &mut |path| library(Path::new(path), files)),
+        PolicyFile::Text(source) => policy_in(&source, files),
     }
 }
 
@@ -123,6 +123,11 @@ pub(crate) fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadErr
     compiled(&source, &mut |_| Err("it is not built into the program".to_owned()))
 }
 
+/// The policy of a text that has been read, with the files that it uses.
+pub(crate) fn policy_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
+    compiled(source, &mut |path| library(Path::new(path), files))
+}
+
 fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>, LoadError> {
     let (source, compiled) = gather_and_compile(source, library);
     let hash = Sha256::new().chain_update(&source.text);
@@ -148,6 +153,22 @@ pub(crate) fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Sourc
 pub(crate) fn chart(path: &Path, files: &mut CommandFiles) -> Result<Chart, LoadError> {
     let source = with_libraries(&policy_text(path, files)?, files);
     policy::chart(&source).map_err(|faults| LoadError::Faults { source_text: Box::new(source), faults })
+}
+
+/// A policy with these parameters set. Its hash depends on them.
+///
+/// # Errors
+/// [`SetError`] if the policy does not have such a parameter, or if the value is out of its range.
+pub(crate) fn set(
+    mut policy: Loaded<Policy>,
+    settings: &[(String, ParameterValue)],
+) -> Result<Loaded<Policy>, SetError> {
+    let program = &mut policy.value.artifact.program;
+    let mut values = Vec::with_capacity(settings.len());
+    for (name, value) in settings {
+        values.push((name.as_str(), program.set_value(name, value)?));
+    }
+    Ok(Loaded { hash: with_settings(policy.hash, values.into_iter()), ..policy })
 }
 
 /// The hash of a policy with the names and values (SI) of the parameters that are set.

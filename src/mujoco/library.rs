@@ -7,7 +7,8 @@
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::error::Error as _;
 use std::ffi::{c_char, c_int, c_void};
-use std::sync::LazyLock;
+use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, OnceLock};
 
 use libloading::Library;
 use mujoco_rs::mujoco_c;
@@ -16,17 +17,42 @@ use mujoco_rs::mujoco_c::{mjData, mjLogConfig, mjModel, mjVERSION_HEADER, mjVFS,
 /// The reason why MuJoCo's library cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup`, or use the world `quasistatic`, which does not need it"
+    "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup` in a checkout, or `pip install mujoco=={}` for Python, or use the \
+     world `quasistatic`, which does not need it",
+    version()
 )]
 pub struct LibraryError {
     /// The message of the loader.
     cause: String,
 }
 
+/// The file of the library, if the program states it.
+static FILE: OnceLock<PathBuf> = OnceLock::new();
+
+/// Sets the file of MuJoCo's library, for a program whose loader does not find it. The plugin for cables is in the same
+/// folder, or in its folder `plugin`. Call it before the first simulation, because the library is loaded once.
+///
+/// # Errors
+/// [`LibrarySet`] if another file is set already.
+pub fn set_library(file: &Path) -> Result<(), LibrarySet> {
+    if FILE.get_or_init(|| file.to_owned()) == file { Ok(()) } else { Err(LibrarySet) }
+}
+
+/// Another file of MuJoCo's library is set already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("another file of MuJoCo's library is set already; set it once, before the first run")]
+pub struct LibrarySet;
+
+/// The folder of the library, if the program states it.
+pub(super) fn stated_folder() -> Option<&'static Path> {
+    FILE.get().and_then(|file| file.parent())
+}
+
 /// The functions of the loaded library. It is never unloaded.
 static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
     let failed = |cause: libloading::Error| LibraryError { cause: loader_message(&cause) };
-    open(file_name()).and_then(|library| Functions::of(&library)).map_err(failed)
+    let file = FILE.get().map_or_else(|| file_name().into(), Clone::clone);
+    open(file).and_then(|library| Functions::of(&library)).map_err(failed)
 });
 
 /// Loads the library once per process.
@@ -50,13 +76,19 @@ pub(super) fn loader_message(cause: &libloading::Error) -> String {
     cause.source().map_or_else(|| cause.to_string(), ToString::to_string)
 }
 
+/// The version of the library that mujoco-rs requires.
+fn version() -> String {
+    let [major, minor, patch] = [mjVERSION_HEADER / 1_000_000, mjVERSION_HEADER / 1000 % 1000, mjVERSION_HEADER % 1000];
+    format!("{major}.{minor}.{patch}")
+}
+
 /// The file name of the library version that mujoco-rs requires. The program's loader path includes its directory.
 fn file_name() -> String {
-    let [major, minor, patch] = [mjVERSION_HEADER / 1_000_000, mjVERSION_HEADER / 1000 % 1000, mjVERSION_HEADER % 1000];
+    let version = version();
     if cfg!(target_vendor = "apple") {
-        format!("@rpath/{DLL_PREFIX}mujoco.{major}.{minor}.{patch}{DLL_SUFFIX}")
+        format!("@rpath/{DLL_PREFIX}mujoco.{version}{DLL_SUFFIX}")
     } else {
-        format!("{DLL_PREFIX}mujoco{DLL_SUFFIX}.{major}.{minor}.{patch}")
+        format!("{DLL_PREFIX}mujoco{DLL_SUFFIX}.{version}")
     }
 }
 

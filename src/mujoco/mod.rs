@@ -23,7 +23,7 @@ mod prune;
 mod world;
 
 #[cfg(feature = "sim")]
-pub use library::LibraryError;
+pub use library::{LibraryError, LibrarySet, set_library};
 #[cfg(feature = "sim")]
 pub use messages::engine_version;
 pub use mjcf::mjcf;

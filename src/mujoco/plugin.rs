@@ -4,7 +4,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use super::library::{loader_message, open};
+use super::library::{loader_message, open, stated_folder};
 
 /// The directory of the library that the program was linked with. `None` for a system-wide MuJoCo.
 const DIRECTORY: Option<&str> = option_env!("MUJOCO_DYNAMIC_LINK_DIR");
@@ -48,19 +48,23 @@ pub enum PluginError {
 /// fails.
 pub(super) fn load_cable_plugin() -> Result<(), PluginError> {
     static LOADED: OnceLock<Result<(), String>> = OnceLock::new();
-    let path = plugin_in(DIRECTORY)?;
+    let stated = stated_folder();
+    // MuJoCo's Python package has its plugins in a folder of their own.
+    let own = stated.map(|folder| folder.join("plugin")).filter(|folder| folder.is_dir());
+    let directory = own.as_deref().or(stated).or(DIRECTORY.map(Path::new));
+    let path = plugin_in(directory)?;
     let loaded = LOADED.get_or_init(|| open(&path).map(|_| ()).map_err(|cause| loader_message(&cause)));
     loaded.clone().map_err(|cause| PluginError::Damaged { cause })
 }
 
 /// Returns the path of the plugin. A missing file is reported here, because the loader's message is longer and less
 /// specific.
-fn plugin_in(directory: Option<&str>) -> Result<PathBuf, PluginError> {
+fn plugin_in(directory: Option<&Path>) -> Result<PathBuf, PluginError> {
     let file = format!("{DLL_PREFIX}elasticity{DLL_SUFFIX}");
-    let Some(directory) = directory.filter(|directory| !directory.is_empty()) else {
+    let Some(directory) = directory.filter(|directory| !directory.as_os_str().is_empty()) else {
         return Err(PluginError::NoDirectory { file });
     };
-    let path = Path::new(directory).join(file);
+    let path = directory.join(file);
     if path.is_file() { Ok(path) } else { Err(PluginError::NoPlugin { path }) }
 }
 
@@ -70,13 +74,13 @@ mod tests {
 
     #[test]
     fn a_plugin_that_is_not_there_is_reported_with_what_to_do() {
-        let error = plugin_in(Some("/nowhere")).map_err(|error| error.to_string());
+        let error = plugin_in(Some(Path::new("/nowhere"))).map_err(|error| error.to_string());
         assert!(error.is_err_and(|text| text.contains("/nowhere/") && text.contains("cargo x setup")));
     }
 
     #[test]
     fn with_a_mujoco_of_the_system_the_advice_is_another() {
-        for directory in [None, Some("")] {
+        for directory in [None, Some(Path::new(""))] {
             let error = plugin_in(directory).map_err(|error| error.to_string());
             assert!(error.is_err_and(|text| text.contains("MUJOCO_DYNAMIC_LINK_DIR") && !text.contains("cargo x")));
         }

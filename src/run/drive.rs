@@ -1,16 +1,16 @@
 //! A whole run.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::scene::{Outcome, Stop};
 use crate::world::World;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Observer;
-use vibrissa_runtime::signal::{Command, Sample};
+use vibrissa_runtime::signal::Sample;
 
 use super::contract::ContractRecord;
-use super::monitor::Monitor;
+use super::stepped_run::{Step, SteppedRun};
 use super::trace::Trace;
 
 /// The result of the control loop.
@@ -69,30 +69,17 @@ impl<F: FnMut(&Trace) -> ControlFlow<()>> Watcher for Progress<F> {
 /// Runs `control` in `world` until `stop`. `watcher` may stop the run earlier. Then the result is `None`.
 pub fn drive(
     world: &mut dyn World,
-    mut control: Control,
+    control: Control,
     stop: &Stop,
     period: f64,
     watcher: &mut impl Watcher,
 ) -> Option<Run> {
-    let mut monitor = Monitor::new(&control, stop, period);
-    let mut command = Command::STOP;
-    let ending = loop {
-        let samples = match world.advance(&command) {
-            Ok(samples) => samples,
-            Err(fault) => break monitor.crashed(&fault),
-        };
-        watcher.before_tick(samples);
-        let before_tick = Instant::now();
-        let (next, ticked) = control.tick_observed(samples, watcher);
-        monitor.tick_took(before_tick.elapsed());
-        command = next;
-        let ending = monitor.observe(&control, command, &ticked, world);
-        if watcher.after_tick(monitor.trace()).is_break() {
-            return None;
+    let mut run = SteppedRun::new(control, stop, period);
+    loop {
+        match run.step(world, watcher) {
+            Step::Running => {}
+            Step::Ended(ending) => return Some(run.finish(ending)),
+            Step::Interrupted => return None,
         }
-        if let Some(ending) = ending {
-            break ending;
-        }
-    };
-    Some(monitor.finish(&control, ending))
+    }
 }

@@ -4,9 +4,11 @@ mod contract;
 mod drive;
 mod monitor;
 mod stall_watch;
+mod stepped_run;
 mod trace;
 
 pub use contract::{ContractMargin, ContractRecord};
 pub use drive::{Progress, Run, Watcher, drive};
 pub use monitor::{Ending, Monitor};
+pub use stepped_run::{Step, SteppedRun};
 pub use trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};

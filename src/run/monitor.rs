@@ -144,6 +144,13 @@ impl Monitor {
         })
     }
 
+    /// Replaces the command of the newest tick.
+    pub fn replace_command(&mut self, command: Command) {
+        if let Some(newest) = self.trace.ticks.last_mut() {
+            newest.command = command;
+        }
+    }
+
     /// Records the plots and messages of the tick that is recorded next.
     fn record_outputs(&mut self, machine: &Machine) {
         let tick = self.trace.ticks.len();

@@ -14,7 +14,7 @@ use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
 use crate::results::{Hashes, Identity, MismatchIdentity, RunResult, policy_label};
-use crate::run::{Progress, Run, Trace, Watcher, drive};
+use crate::run::{Progress, Run, SteppedRun, Trace, Watcher, drive};
 use crate::scene::{Scene, Violation, WorldSetup};
 use crate::score::Score;
 use crate::world::{TrueTips, World};
@@ -162,13 +162,26 @@ impl Trial {
         Ok(Control::simulated(&self.assumed_rig, Arc::clone(&self.program))?)
     }
 
+    /// The run of the trial at its start, to be stepped in its [world](Self::world).
+    ///
+    /// # Errors
+    /// [`ExecuteError`] if the rig does not have what the policy needs.
+    pub fn begin(&self) -> Result<SteppedRun, ExecuteError> {
+        Ok(SteppedRun::new(self.control()?, &self.scene.stop, self.period()))
+    }
+
+    /// The control period (s).
+    fn period(&self) -> f64 {
+        self.scene.rig.sensing.control_rate.recip()
+    }
+
     fn drive(&self, control: Control, world: &mut dyn World, watcher: &mut impl Watcher) -> Result<Run, ExecuteError> {
-        let period = self.scene.rig.sensing.control_rate.recip();
-        drive(world, control, &self.scene.stop, period, watcher).ok_or(ExecuteError::Interrupted)
+        drive(world, control, &self.scene.stop, self.period(), watcher).ok_or(ExecuteError::Interrupted)
     }
 
     /// Scores a run of this trial.
-    pub(crate) fn scored(&self, run: Run) -> TrialResult {
+    #[must_use]
+    pub fn scored(&self, run: Run) -> TrialResult {
         let score = Score::new(&run, &self.scene.truth, &self.true_rig());
         let expectations = self.scene.expect.iter();
         let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));

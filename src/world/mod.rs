@@ -18,8 +18,8 @@ use vibrissa_runtime::signal::{Command, Sample};
 /// A whisker snaps off if a part of it is faster than this (m/s) relative to its base.
 pub(crate) const SNAP_OFF_SPEED: f64 = 0.1;
 
-/// A simulation of a rig among solids.
-pub trait World {
+/// A simulation of a rig among solids. It may move to another thread.
+pub trait World: Send {
     /// Simulates one control period under `command`. Returns the samples of that period, oldest first.
     ///
     /// # Errors

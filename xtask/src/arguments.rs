@@ -36,6 +36,7 @@ Commands:
   pieces  remove each part of vibrissa.fsm in turn and write what it is worth into docs/results/pieces.md; goes on where it was stopped
             --count N      run N scenes of each family (5)
             --program FILE use this program instead of building it
+  python  build the wheel of the Python package, install it into a fresh virtual environment and run its tests
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
@@ -60,6 +61,7 @@ pub(crate) enum Command {
     Results(Selection),
     Nightly(nightly::Options),
     Pieces(pieces::Options),
+    Python,
     Pi,
     Web,
     Fuzz(u64),
@@ -106,6 +108,7 @@ impl Command {
             "results" => return parse_results(arguments),
             "nightly" => return parse_nightly(arguments),
             "pieces" => return parse_pieces(arguments),
+            "python" => Self::Python,
             "pi" => Self::Pi,
             "web" => Self::Web,
             "fuzz" => {
@@ -247,6 +250,12 @@ mod tests {
         assert_eq!(parse(&["nightly"]), Ok(Command::Nightly(nightly::Options::default())));
         assert_eq!(parse(&["nightly", "--count", "0"]), Err(ArgumentError::NoScenes));
         assert!(parse(&["nightly", "disk"]).is_err());
+    }
+
+    #[test]
+    fn the_python_package_has_a_command_without_arguments() {
+        assert_eq!(parse(&["python"]), Ok(Command::Python));
+        assert!(parse(&["python", "--release"]).is_err());
     }
 
     #[test]

@@ -14,6 +14,7 @@ use crate::comments::{self, CommentsError};
 use crate::imports::{self, ImportsError};
 use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
+use crate::python::{self, PythonError};
 use crate::runtime::{self, RuntimeError};
 use crate::setup::{self, Options, SetupError};
 use crate::web::{self, WebError};
@@ -37,6 +38,7 @@ enum Work {
     Web,
     Browser,
     Examples,
+    Python,
     CheckoutIsUntouched,
 }
 
@@ -77,6 +79,8 @@ pub(crate) enum CheckError {
     #[error(transparent)]
     Web(#[from] WebError),
     #[error(transparent)]
+    Python(#[from] PythonError),
+    #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]
     Cargo(#[from] NotStarted),
@@ -87,13 +91,13 @@ pub(crate) enum CheckError {
 const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 
 /// The features that are not there by default.
-const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
+pub(crate) const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 
 /// In this order: what fails soonest comes first, and the core is tested before there need be any MuJoCo.
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
 /// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 20] = [
+const CHECKS: [Check; 21] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
@@ -110,6 +114,9 @@ const CHECKS: [Check; 20] = [
             "test",
             "--package",
             "vibrissa",
+            // It has no test of Cargo. But with it, dependencies have the features of the whole workspace.
+            "--package",
+            "vibrissa-python",
             "--no-default-features",
             "--test",
             "program",
@@ -126,7 +133,18 @@ const CHECKS: [Check; 20] = [
     check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
     check(
         "lints of the core",
-        &["clippy", "--package", "vibrissa", "--no-default-features", "--all-targets", "--", "--deny", "warnings"],
+        &[
+            "clippy",
+            "--package",
+            "vibrissa",
+            "--package",
+            "vibrissa-python",
+            "--no-default-features",
+            "--all-targets",
+            "--",
+            "--deny",
+            "warnings",
+        ],
     ),
     check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
     Check { title: "tests of the runtime and of the robot on aarch64, under an emulator", work: Work::Aarch64 },
@@ -162,6 +180,8 @@ const CHECKS: [Check; 20] = [
     // The whole workspace, so that dependencies have the features with which the tests were built.
     check("benches, each run once", &["test", "--workspace", "--features", FEATURES, "--bench", "*"]),
     Check { title: "reports in a browser", work: Work::Browser },
+    // The dependencies are those of the tests, and so is the program that it is compared with.
+    Check { title: "Python package", work: Work::Python },
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
 ];
 
@@ -217,6 +237,7 @@ impl Check {
             Work::Web => with_browser_tools(web::check(root)),
             Work::Browser => with_browser_tools(web::browse(root)),
             Work::Examples => examples_run(self.title, root),
+            Work::Python => Ok(python::test(root, FEATURES)?),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
     }
@@ -271,7 +292,8 @@ fn examples_run(title: &'static str, root: &Path) -> Result<(), CheckError> {
         let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
         let mut paths = paths.map_err(CheckError::Examples)?;
         paths.sort();
-        for name in paths.iter().filter_map(|path| path.file_stem()) {
+        let sources = paths.iter().filter(|path| path.extension().is_some_and(|end| end == "rs"));
+        for name in sources.filter_map(|path| path.file_stem()) {
             let program = programs.join(name).with_extension(env::consts::EXE_EXTENSION);
             let rerun = program.display().to_string();
             println!("      {rerun}");

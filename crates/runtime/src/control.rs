@@ -74,6 +74,11 @@ impl Control {
         (command, tick)
     }
 
+    /// Tells perception that the platform executes this command instead of that of the newest tick.
+    pub fn replace_command(&mut self, command: Command) {
+        self.perception.command(command);
+    }
+
     /// The perception of this controller.
     #[must_use]
     pub fn perception(&self) -> &Perception {

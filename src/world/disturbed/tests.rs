@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 use super::*;
 use crate::mismatch::{Mismatch, Property};
+use std::sync::{Arc, Mutex};
 
 const PERIOD: f64 = 1.0 / 300.0;
 
@@ -8,7 +9,7 @@ const PERIOD: f64 = 1.0 / 300.0;
 struct Ramp {
     count: u32,
     samples_per_tick: usize,
-    commands: std::rc::Rc<std::cell::RefCell<Vec<f64>>>,
+    commands: Arc<Mutex<Vec<f64>>>,
     samples: Vec<Sample>,
 }
 
@@ -27,7 +28,7 @@ impl World for Ramp {
             let mut sample = Sample { time, body, whiskers: Default::default() };
             sample.whiskers[..2].fill(Reading { base_angle, ..Reading::default() });
             self.samples.push(sample);
-            self.commands.borrow_mut().push(command.yaw_rate);
+            self.commands.lock().unwrap().push(command.yaw_rate);
         }
         Ok(&self.samples)
     }
@@ -47,16 +48,16 @@ impl World for Ramp {
 }
 
 /// The ramp as it is measured with these values, and its commands.
-fn disturbed(values: &[(Property, f64)], loss: Loss) -> (Disturbed, std::rc::Rc<std::cell::RefCell<Vec<f64>>>) {
+fn disturbed(values: &[(Property, f64)], loss: Loss) -> (Disturbed, Arc<Mutex<Vec<f64>>>) {
     let mut mismatch = Mismatch { loss: Some(loss), ..Mismatch::default() };
     for &(property, value) in values {
         mismatch.common.set(property, value);
     }
     let array = mismatch.array(&Rig::default());
-    let commands = std::rc::Rc::default();
+    let commands = Arc::default();
     let inner = Disturbed::inner_rig(&array).sensing;
     let samples_per_tick = whole(inner.sample_rate / inner.control_rate);
-    let ramp = Ramp { count: 0, samples_per_tick, commands: std::rc::Rc::clone(&commands), samples: Vec::new() };
+    let ramp = Ramp { count: 0, samples_per_tick, commands: Arc::clone(&commands), samples: Vec::new() };
     (Disturbed::new(Box::new(ramp), array, 7), commands)
 }
 
@@ -92,7 +93,7 @@ fn a_command_takes_effect_after_its_latency_in_sample_periods() {
         assert_eq!(samples.len(), 10);
     }
     let expected = [vec![0.0; 7], vec![1.0; 10], vec![2.0; 10], vec![3.0; 3]].concat();
-    assert_eq!(*commands.borrow(), expected);
+    assert_eq!(*commands.lock().unwrap(), expected);
 }
 
 #[test]

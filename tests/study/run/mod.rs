@@ -2,6 +2,7 @@
 
 mod hostile;
 mod mismatch;
+mod stepped_run;
 mod ticks;
 mod true_tips;
 mod way;

@@ -1,0 +1,137 @@
+//! The control loop of a machine.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vibrissa_runtime::geometry::Pose;
+use vibrissa_runtime::machine::{LoggedMessage, Senses, Status, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::signal;
+
+use crate::arrays::{Numbers, list, table};
+use crate::samples::GivenSamples;
+
+/// A control loop: perception, machine and motion. It is the loop that simulations and robots run.
+#[pyclass(module = "vibrissa")]
+pub(crate) struct Control {
+    inner: vibrissa_runtime::control::Control,
+    /// Number of whiskers of the rig.
+    width: usize,
+    status: Status,
+}
+
+/// A command to the platform, valid until the next tick.
+#[pyclass(frozen, module = "vibrissa")]
+pub(crate) struct Command(signal::Command);
+
+impl Control {
+    pub(crate) fn new(control: vibrissa_runtime::control::Control, width: usize) -> Self {
+        Self { inner: control, width, status: Status::Running }
+    }
+}
+
+#[pymethods]
+impl Control {
+    /// Executes one tick. The samples are those since the last tick, oldest first: a row for each in every array.
+    #[pyo3(signature = (time_s, position_m, heading_rad, base_angle_rad, shear_n = None, axial_n = None))]
+    fn tick(
+        &mut self,
+        time_s: Numbers<'_>,
+        position_m: Numbers<'_>,
+        heading_rad: Numbers<'_>,
+        base_angle_rad: Numbers<'_>,
+        shear_n: Option<Numbers<'_>>,
+        axial_n: Option<Numbers<'_>>,
+    ) -> PyResult<Command> {
+        let given = GivenSamples {
+            time: time_s,
+            position: position_m,
+            heading: heading_rad,
+            base_angle: base_angle_rad,
+            shear: shear_n,
+            axial: axial_n,
+        };
+        let (command, tick) = self.inner.tick(&given.samples(self.width)?);
+        self.status = tick.status;
+        Ok(Command(command))
+    }
+
+    /// Name of the innermost active state, or `Failure` or `Success` after the end.
+    #[getter]
+    fn state(&self) -> &str {
+        self.inner.machine().state_name()
+    }
+
+    /// `running`, `failed` or `succeeded`.
+    #[getter]
+    fn status(&self) -> &'static str {
+        match self.status {
+            Status::Running => "running",
+            Status::Failed => "failed",
+            Status::Succeeded => "succeeded",
+        }
+    }
+
+    /// The reason of the end. `None` while the machine runs.
+    #[getter]
+    fn reason(&self) -> Option<String> {
+        let machine = self.inner.machine();
+        machine.failure().map(ToString::to_string).or_else(|| machine.success().map(str::to_owned))
+    }
+
+    /// The messages that the newest tick has logged.
+    #[getter]
+    fn messages(&self) -> Vec<String> {
+        let machine = self.inner.machine();
+        let program = machine.program();
+        let shown = |LoggedMessage { message, numbers }| {
+            program.outputs.messages[message].shown(&numbers, &program.whiskers).to_string()
+        };
+        machine.logged().map(shown).collect()
+    }
+
+    /// The whiskers that the machine binds, as perceived in the newest tick: arrays with a row for each.
+    fn perceived<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let perception = self.inner.perception();
+        let names = &self.inner.machine().program().whiskers;
+        let fitted: Vec<usize> = perception.fitted().map(|(whisker, _)| whisker).collect();
+        let each = |value: &dyn Fn(usize) -> f64| list(py, fitted.iter().map(|&whisker| value(whisker)).collect());
+        let perceived = PyDict::new(py);
+        perceived.set_item("whisker", fitted.iter().map(|&whisker| names[whisker].as_str()).collect::<Vec<_>>())?;
+        perceived.set_item("deflection_rad", each(&|whisker| perception.base_angle(whisker)))?;
+        let touching = |&whisker: &usize| perception.whisker(whisker, WhiskerScalar::Touching) > 0.0;
+        perceived.set_item("touching", list(py, fitted.iter().map(touching).collect()))?;
+        let tips = fitted.iter().flat_map(|&whisker| {
+            let tip = perception.whisker_vector(whisker, WhiskerVector::Tip);
+            [tip.x, tip.y]
+        });
+        perceived.set_item("tip_m", table(py, tips.collect(), 2)?)?;
+        perceived.set_item("tip_spread_m", each(&|whisker| perception.recorded_deviation(whisker)))?;
+        Ok(perceived)
+    }
+}
+
+#[pymethods]
+impl Command {
+    /// Velocity of the platform's centre of mass in the world frame.
+    #[getter]
+    fn velocity_m_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &[self.0.velocity_world.x, self.0.velocity_world.y])
+    }
+
+    /// Yaw rate, counter-clockwise positive.
+    #[getter]
+    fn yaw_rate_rad_s(&self) -> f64 {
+        self.0.yaw_rate
+    }
+
+    /// The velocity in the frame of a body with this heading: forward and to the left.
+    fn velocity_body_m_s(&self, heading_rad: f64) -> (f64, f64) {
+        let velocity = Pose { heading: heading_rad, ..Pose::default() }.vector_from_world(self.0.velocity_world);
+        (velocity.x, velocity.y)
+    }
+
+    fn __repr__(&self) -> String {
+        let signal::Command { velocity_world, yaw_rate } = self.0;
+        format!("Command(velocity_m_s=[{}, {}], yaw_rate_rad_s={yaw_rate})", velocity_world.x, velocity_world.y)
+    }
+}

@@ -1,0 +1,110 @@
+//! Scenarios, policies and values of parameters that Python gives.
+
+use std::path::{Path, PathBuf};
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vibrissa::built_in::{POLICIES, SCENARIOS, TextFile};
+use vibrissa::diagnostic::Source;
+use vibrissa::request::{Input, PolicyInput};
+use vibrissa_runtime::machine::ParameterValue;
+
+use crate::error::error;
+use crate::machine::Machine;
+
+/// The text of a scenario, a policy or a mismatch. Messages show its name. Paths in the text are relative to the folder of the name.
+#[pyclass(frozen, get_all, module = "vibrissa")]
+pub(crate) struct Text {
+    text: String,
+    name: String,
+}
+
+#[pymethods]
+impl Text {
+    #[new]
+    #[pyo3(signature = (text, name = "text".to_owned()))]
+    fn new(text: String, name: String) -> Self {
+        Self { text, name }
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Text(name={:?})", self.name)
+    }
+}
+
+impl Text {
+    fn source(&self) -> Source {
+        Source::new(self.name.as_str(), self.text.as_str())
+    }
+}
+
+/// A scenario or a mismatch: a text, or a path or the name of a built-in scenario.
+#[derive(FromPyObject)]
+pub(crate) enum GivenInput<'py> {
+    Text(Bound<'py, Text>),
+    Path(PathBuf),
+}
+
+/// A policy: a text, a machine, or a path or the name of a built-in policy.
+#[derive(FromPyObject)]
+pub(crate) enum GivenPolicy<'py> {
+    Text(Bound<'py, Text>),
+    Machine(Bound<'py, Machine>),
+    Path(PathBuf),
+}
+
+impl From<GivenInput<'_>> for Input {
+    fn from(given: GivenInput<'_>) -> Self {
+        match given {
+            GivenInput::Text(text) => Self::Text(text.get().source()),
+            GivenInput::Path(path) => built_in(SCENARIOS, &path).map_or(Self::File(path), Self::BuiltIn),
+        }
+    }
+}
+
+impl From<GivenPolicy<'_>> for PolicyInput {
+    fn from(given: GivenPolicy<'_>) -> Self {
+        match given {
+            GivenPolicy::Text(text) => Self::Text(text.get().source()),
+            GivenPolicy::Machine(machine) => Self::Machine(Box::new(machine.get().artifact().clone())),
+            GivenPolicy::Path(path) => built_in(POLICIES, &path).map_or(Self::File(path), Self::BuiltIn),
+        }
+    }
+}
+
+/// The names of the built-in scenarios, in the order of the bench.
+#[pyfunction]
+pub(crate) fn scenarios() -> Vec<&'static str> {
+    SCENARIOS.iter().map(name).collect()
+}
+
+/// The names of the built-in policies.
+#[pyfunction]
+pub(crate) fn policies() -> Vec<&'static str> {
+    POLICIES.iter().map(name).collect()
+}
+
+/// The built-in text that a path without folder and extension names.
+fn built_in(texts: &'static [TextFile], path: &Path) -> Option<&'static TextFile> {
+    texts.iter().find(|file| path == Path::new(name(file)))
+}
+
+fn name(file: &TextFile) -> &'static str {
+    Path::new(file.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or(file.path)
+}
+
+/// Values of parameters: a text with a unit, a number, a bool, or the name of a choice.
+pub(crate) fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, ParameterValue)>> {
+    let setting = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let name: String = name.extract()?;
+        let text = match value.extract::<bool>() {
+            Ok(truth) => truth.to_string(),
+            Err(_) => value.str()?.to_string(),
+        };
+        match ParameterValue::parse(&text) {
+            Ok(value) => Ok((name, value)),
+            Err(cause) => Err(error(format_args!("`{name}`: {cause}; {}", cause.hint()))),
+        }
+    };
+    given.into_iter().flatten().map(setting).collect()
+}

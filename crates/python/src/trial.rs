@@ -1,0 +1,210 @@
+//! Trials.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vibrissa::request::TrialRequest;
+use vibrissa::run::{Trace, Watcher};
+use vibrissa::scene::{Jitter, WorldKind};
+use vibrissa::trial::ExecuteError;
+use vibrissa_runtime::machine::Observer;
+use vibrissa_runtime::signal::Sample;
+
+use crate::arrays::table;
+use crate::episode::Episode;
+use crate::error::error;
+use crate::input::{GivenInput, GivenPolicy, settings};
+use crate::machine::warnings;
+use crate::result::Result;
+use crate::rig::Rig;
+
+/// A policy in a scene and a world, ready to run.
+#[pyclass(frozen, module = "vibrissa")]
+pub(crate) struct Trial {
+    trial: vibrissa::trial::Trial,
+    /// Warnings about probable mistakes in the text of the policy, as the program prints them.
+    #[pyo3(get)]
+    warnings: String,
+}
+
+#[pymethods]
+impl Trial {
+    #[new]
+    #[pyo3(signature = (
+        scenario, policy = None, *, set = None, world = None, seed = None, mismatch = None, mismatch_seed = None, prune = true,
+        jitter = None, time_limit_s = None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python names them")]
+    fn new(
+        py: Python<'_>,
+        scenario: GivenInput<'_>,
+        policy: Option<GivenPolicy<'_>>,
+        set: Option<&Bound<'_, PyDict>>,
+        world: Option<&str>,
+        seed: Option<u64>,
+        mismatch: Option<GivenInput<'_>>,
+        mismatch_seed: Option<u64>,
+        prune: bool,
+        jitter: Option<(f64, f64)>,
+        time_limit_s: Option<f64>,
+    ) -> PyResult<Self> {
+        let request = TrialRequest {
+            policy: policy.map(Into::into),
+            settings: settings(set)?,
+            mismatch: mismatch.map(Into::into),
+            mismatch_seed,
+            world: world.map(world_kind).transpose()?,
+            prune,
+            seed,
+            ..TrialRequest::new(scenario.into())
+        };
+        let prepared = py.detach(|| request.prepare()).map_err(error)?;
+        let mut trial = prepared.trial;
+        if let Some((position, heading)) = jitter {
+            let start = Jitter { position, heading }.start(&trial.scene, trial.seed);
+            let none = "almost no start within the jitter is collision-free; make `jitter` smaller";
+            trial.scene.start = start.ok_or_else(|| error(none))?;
+        }
+        if let Some(limit) = time_limit_s {
+            if !(limit > 0.0 && limit.is_finite()) {
+                return Err(error("`time_limit_s` must be a positive number"));
+            }
+            trial.scene.stop.time = limit;
+        }
+        Ok(Self { trial, warnings: warnings(&prepared.policy) })
+    }
+
+    /// Runs and scores the trial. Other threads of Python go on meanwhile.
+    #[pyo3(signature = (*, samples = false))]
+    fn run(&self, py: Python<'_>, samples: bool) -> PyResult<Result> {
+        let mut watch = Watch { samples: samples.then(Vec::new), signal: None };
+        let run = py.detach(|| self.trial.run_watched(&mut watch));
+        match (run, watch.signal) {
+            (Err(ExecuteError::Interrupted), Some(signal)) => Err(signal),
+            (Err(cause), _) => Err(error(format_args!("{}: {cause}", self.trial.inputs.scenario.display()))),
+            (Ok(result), _) => Result::new(py, self.trial.clone(), result, watch.samples),
+        }
+    }
+
+    /// Begins an episode, in which the caller steers the platform instead of the policy.
+    fn begin(&self, py: Python<'_>) -> PyResult<Episode> {
+        let begun = py.detach(|| Episode::begin(&self.trial));
+        begun.map_err(|cause| error(format_args!("{}: {cause}", self.trial.inputs.scenario.display())))
+    }
+
+    /// Name of the scenario.
+    #[getter]
+    fn scenario(&self) -> &str {
+        &self.trial.scene.name
+    }
+
+    /// Name of the policy.
+    #[getter]
+    fn policy(&self) -> &str {
+        &self.trial.program.name
+    }
+
+    /// Name of the simulator.
+    #[getter]
+    fn world(&self) -> &'static str {
+        self.trial.world.kind.name()
+    }
+
+    /// Seed of the sensor noise.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.trial.seed
+    }
+
+    /// Simulated time after which the run ends.
+    #[getter]
+    fn time_limit_s(&self) -> f64 {
+        self.trial.scene.stop.time
+    }
+
+    /// The rig that control assumes.
+    #[getter]
+    fn rig(&self) -> Rig {
+        Rig(self.trial.assumed_rig.clone())
+    }
+
+    /// Pose of the platform at the start: x (m), y (m), heading (rad).
+    #[getter]
+    fn start(&self) -> (f64, f64, f64) {
+        let start = &self.trial.scene.start;
+        (start.position.x, start.position.y, start.heading)
+    }
+
+    /// The exact outlines that count as traced, as polylines with points at most this far apart.
+    #[pyo3(signature = (spacing_m = 1e-3))]
+    fn outlines<'py>(&self, py: Python<'py>, spacing_m: f64) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        if spacing_m.is_nan() || spacing_m < 1e-6 {
+            return Err(error("`spacing_m` must be at least 1e-6"));
+        }
+        let outline = |contour: &vibrissa::geometry::Contour| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "an outline is some metres long"
+            )]
+            let count = (contour.length() / spacing_m).ceil().max(1.0) as usize;
+            let point = |index: usize| contour.point_at(contour.length() * index as f64 / count as f64);
+            table(py, (0..=count).map(point).flat_map(|point| [point.x, point.y]).collect(), 2)
+        };
+        self.trial.scene.truth.reference.contours().map(outline).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Trial(scenario={:?}, policy={:?}, world={:?})", self.scenario(), self.policy(), self.world())
+    }
+}
+
+fn world_kind(name: &str) -> PyResult<WorldKind> {
+    let known = || WorldKind::ALL.map(|kind| format!("`{kind}`")).join(" and ");
+    let kind = WorldKind::ALL.into_iter().find(|kind| kind.name() == name);
+    kind.ok_or_else(|| error(format_args!("there is no world `{name}`; there are {}", known())))
+}
+
+/// Number of ticks between two looks for a signal, such as Ctrl-C.
+const TICKS_BETWEEN_SIGNALS: usize = 30;
+
+/// Keeps the samples of a run, and ends it at a signal.
+struct Watch {
+    samples: Option<Vec<Vec<Sample>>>,
+    /// The exception of a signal.
+    signal: Option<PyErr>,
+}
+
+impl Observer for Watch {}
+
+impl Watcher for Watch {
+    fn before_tick(&mut self, samples: &[Sample]) {
+        if let Some(kept) = &mut self.samples {
+            kept.push(samples.to_vec());
+        }
+    }
+
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        if trace.ticks.len().is_multiple_of(TICKS_BETWEEN_SIGNALS) {
+            self.signal = Python::attach(|py| py.check_signals().err());
+        }
+        if self.signal.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// True if the package was built with MuJoCo's world.
+#[pyfunction]
+pub(crate) fn has_mujoco() -> bool {
+    cfg!(feature = "sim")
+}
+
+/// Sets the file of MuJoCo's library.
+#[pyfunction]
+pub(crate) fn use_mujoco(file: PathBuf) -> PyResult<()> {
+    #[cfg(feature = "sim")]
+    return vibrissa::mujoco::set_library(&file).map_err(error);
+    #[cfg(not(feature = "sim"))]
+    return Err(error(format_args!("{}: this build has no world `mujoco`", file.display())));
+}

@@ -1,0 +1,72 @@
+"""Compiled machines: bytes, and the same commands as in a simulation."""
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import vibrissa
+
+
+@pytest.mark.parametrize("policy", ["vibrissa", "thesis"])
+def test_a_machine_repeats_the_commands_of_a_run_bit_for_bit(policy):
+    trial = vibrissa.Trial("octagon", policy, world="quasistatic")
+    result = trial.run(samples=True)
+    samples, ticks = result.samples, result.ticks
+    machine = vibrissa.Machine.load(vibrissa.compile(policy).to_bytes())
+    control = machine.start(trial.rig)
+    names = ["time_s", "position_m", "heading_rad", "base_angle_rad"]
+    for tick, (velocity, yaw_rate) in enumerate(zip(ticks["velocity_m_s"], ticks["yaw_rate_rad_s"])):
+        rows = samples["tick"] == tick
+        command = control.tick(*(samples[name][rows] for name in names))
+        assert command.velocity_m_s.tobytes() == velocity.tobytes(), tick
+        assert command.yaw_rate_rad_s.hex() == yaw_rate.item().hex(), tick
+        perceived = control.perceived()
+        assert np.array_equal(perceived["deflection_rad"], ticks["deflection_rad"][tick])
+        assert np.array_equal(perceived["touching"], ticks["touching"][tick])
+    assert len(ticks["time_s"]) > 1000
+    assert control.status == "running"
+
+
+def test_the_bytes_are_those_that_the_program_compiles(tmp_path):
+    file = tmp_path / "bang.machine"
+    file.write_bytes(vibrissa.compile(ROOT / "policies/bang.fsm").to_bytes())
+    machine = vibrissa.Machine.load(file)
+    assert (machine.name, machine.whiskers, machine.states) == ("bang", ["r0"], ["Exploring", "Following"])
+    speed, _ = machine.parameters
+    assert (speed.name, speed.value, speed.range) == ("speed", "30 mm/s", ("1 mm/s", "50 mm/s"))
+    slower = vibrissa.compile(ROOT / "policies/bang.fsm", set={"speed": "20 mm/s"})
+    assert slower.parameters[0].value == "20 mm/s"
+    assert slower.parameters[0].default == "30 mm/s"
+
+
+def test_a_command_is_given_in_the_frame_of_the_body_too():
+    control = vibrissa.compile(ROOT / "policies/bang.fsm").start()
+    command = control.tick(1 / 30, [0.0, 0.0], 1.0, [0.0, 0.0])
+    forward, left = command.velocity_body_m_s(1.0)
+    assert np.hypot(forward, left) == pytest.approx(0.03)
+    assert np.allclose(command.velocity_m_s, [forward * np.cos(1) - left * np.sin(1), forward * np.sin(1) + left * np.cos(1)])
+
+
+def test_unusable_machines_and_samples_are_refused():
+    with pytest.raises(vibrissa.Error, match="does not begin as compiled machines do"):
+        vibrissa.Machine.load(b"machine a")
+    with pytest.raises(vibrissa.Error, match="use `vibrissa.compile`"):
+        vibrissa.Machine.load(ROOT / "policies/bang.fsm")
+    control = vibrissa.compile("vibrissa").start()
+    with pytest.raises(vibrissa.Error, match="`base_angle_rad` has 3 numbers, and the samples need 2"):
+        control.tick(0.1, [0, 0], 0, [0, 0, 0])
+    single = vibrissa.Text("machine single\n\nwhisker nose\n\ninitial A\n\nstate A { record nose stop }\n")
+    with pytest.raises(vibrissa.Error, match="the rig has no whisker `nose`"):
+        vibrissa.compile(single).start()
+    ideal = vibrissa.Text("machine ideal\n\nwhisker r0 by truth\n\ninitial A\n\nstate A { record r0 stop }\n")
+    with pytest.raises(vibrissa.Error, match="truth"):
+        vibrissa.compile(ideal).start()
+
+
+def test_a_tick_accepts_missing_readings():
+    control = vibrissa.compile("vibrissa").start()
+    for tick in range(1, 40):
+        angle = np.nan if tick % 3 == 0 else 0.0
+        command = control.tick(tick / 30, [0.0, 0.0], 0.0, [angle, 0.0])
+        assert np.isfinite(command.velocity_m_s).all()
+    control.tick([], np.empty((0, 2)), [], np.empty((0, 2)))

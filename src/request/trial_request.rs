@@ -1,0 +1,261 @@
+//! A request for a trial.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::machine::{Artifact, ParameterValue};
+
+use super::error::{RequestError, RequestFault};
+use super::input::{Input, PolicyInput};
+use crate::built_in::{DEFAULT_POLICY, POLICIES, TextFile};
+use crate::diagnostic::{Diagnostic, Source};
+use crate::file::CommandFiles;
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText};
+use crate::scene::{Scene, WorldKind, WorldSetup};
+use crate::trial::{Inputs, Trial, short_hash};
+
+/// A request for a trial: a scenario, and what replaces its policy, simulator and seed.
+///
+/// ```
+/// use vibrissa::built_in::SCENARIOS;
+/// use vibrissa::request::{Input, TrialRequest};
+/// use vibrissa::scene::WorldKind;
+/// let mut request = TrialRequest::new(Input::BuiltIn(&SCENARIOS[0]));
+/// request.world = Some(WorldKind::QuasiStatic);
+/// let prepared = request.prepare().unwrap();
+/// assert_eq!(prepared.trial.scene.name, "disk");
+/// assert_eq!(prepared.policy.artifact.program.name, "thesis");
+/// ```
+#[derive(Debug, Clone)]
+pub struct TrialRequest {
+    /// The scenario.
+    pub scenario: Input,
+    /// The policy. `None` for that of the scenario, or else the built-in one.
+    pub policy: Option<PolicyInput>,
+    /// Values of parameters of the policy.
+    pub settings: Vec<(String, ParameterValue)>,
+    /// A mismatch. The scenario's own keys precede it.
+    pub mismatch: Option<Input>,
+    /// Seed of the values that a mismatch draws from ranges.
+    pub mismatch_seed: Option<u64>,
+    /// The simulator. `None` for that of the scenario, or else the default.
+    pub world: Option<WorldKind>,
+    /// True if the simulator omits parts of the scene without effect.
+    pub prune: bool,
+    /// Seed of the sensor noise. `None` for that of the scenario.
+    pub seed: Option<u64>,
+}
+
+/// A trial that is ready to run.
+#[derive(Debug, Clone)]
+pub struct PreparedTrial {
+    /// The trial.
+    pub trial: Trial,
+    /// The policy.
+    pub policy: PreparedPolicy,
+}
+
+/// A policy that is ready to run.
+#[derive(Debug, Clone)]
+pub struct PreparedPolicy {
+    /// The machine. Its parameters are those of its text.
+    pub artifact: Artifact,
+    /// The text with those of the files that it uses. `None` for a compiled machine.
+    pub text: Option<Source>,
+    /// Warnings about probable mistakes in the text.
+    pub warnings: Vec<Diagnostic>,
+}
+
+impl TrialRequest {
+    /// The scenario with its own policy, simulator and seed.
+    #[must_use]
+    pub fn new(scenario: Input) -> Self {
+        Self {
+            scenario,
+            policy: None,
+            settings: Vec::new(),
+            mismatch: None,
+            mismatch_seed: None,
+            world: None,
+            prune: true,
+            seed: None,
+        }
+    }
+
+    /// Reads all files and compiles the policy.
+    ///
+    /// # Errors
+    /// [`RequestError`] if a file, a text or an option cannot be used.
+    pub fn prepare(&self) -> Result<PreparedTrial, RequestError> {
+        let mut files = CommandFiles::new();
+        let mismatch = match &self.mismatch {
+            None => GivenMismatch::read(None, self.mismatch_seed, &mut files)?,
+            Some(Input::File(path)) => GivenMismatch::read(Some(path), self.mismatch_seed, &mut files)?,
+            Some(Input::Text(source)) => GivenMismatch::of_text(source.clone(), self.mismatch_seed)?,
+            Some(Input::BuiltIn(file)) => {
+                GivenMismatch::of_text(Source::new(file.path, file.text), self.mismatch_seed)?
+            }
+        };
+        let (trial, policy) = self.prepare_in(&mismatch, &mut files)?;
+        Ok(PreparedTrial { trial, policy: policy.into() })
+    }
+
+    /// The trial under a mismatch that has been read, and its policy.
+    pub(crate) fn prepare_in(
+        &self,
+        mismatch: &GivenMismatch,
+        files: &mut CommandFiles,
+    ) -> Result<(Trial, Policy), RequestError> {
+        let before = Instant::now();
+        let source = scenario_text(&self.scenario, files)?;
+        let path = PathBuf::from(&source.name);
+        let Loaded { value: mut scene, hash: mut scenario_hash } = read_scene(&self.scenario, &source, files)?;
+        mismatch
+            .apply(&mut scene, &mut scenario_hash, 0)
+            .map_err(|cause| RequestFault::Mismatch { scenario: path.clone(), cause })?;
+        let policy = match (&self.policy, &self.scenario) {
+            (Some(given), _) => given_policy(given, files)?,
+            (None, Input::BuiltIn(_)) => load::built_in_policy(built_in_policy(&scene))?,
+            (None, _) => load::policy_for(None, &scene, &source, files)?,
+        };
+        let Loaded { value: policy, hash: policy_hash } = load::set(policy, &self.settings)?;
+        let kind = self.world.or(scene.world).unwrap_or_default();
+        let inputs = Inputs {
+            scenario: path,
+            scenario_hash: short_hash(&scenario_hash.finalize()),
+            policy_hash: short_hash(&policy_hash.finalize()),
+            preparation: before.elapsed(),
+        };
+        let trial = Trial {
+            world: WorldSetup { kind, prune: self.prune },
+            seed: self.seed.unwrap_or(scene.seed),
+            inputs,
+            ..Trial::new(scene, Arc::new(policy.artifact.program.clone()))
+        };
+        Ok((trial, policy))
+    }
+}
+
+/// Reads a policy and sets parameters of it.
+///
+/// # Errors
+/// [`RequestError`] if the policy or a value cannot be used.
+pub fn policy(input: &PolicyInput, settings: &[(String, ParameterValue)]) -> Result<PreparedPolicy, RequestError> {
+    Ok(load::set(given_policy(input, &mut CommandFiles::new())?, settings)?.value.into())
+}
+
+/// Reads a scenario alone.
+///
+/// # Errors
+/// [`RequestError`] if the scenario cannot be used.
+pub fn scene(input: &Input) -> Result<Scene, RequestError> {
+    let mut files = CommandFiles::new();
+    let source = scenario_text(input, &mut files)?;
+    Ok(read_scene(input, &source, &mut files)?.value)
+}
+
+fn scenario_text(input: &Input, files: &mut CommandFiles) -> Result<Source, LoadError> {
+    match input {
+        Input::File(path) => load::read(path, files),
+        Input::Text(source) => Ok(source.clone()),
+        Input::BuiltIn(file) => Ok(Source::new(file.path, file.text)),
+    }
+}
+
+fn read_scene(input: &Input, source: &Source, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
+    match input {
+        Input::BuiltIn(file) => load::built_in_scenario(file),
+        Input::File(_) | Input::Text(_) => load::scenario_in(source, files),
+    }
+}
+
+/// The built-in policy with the name that a built-in scenario gives, or else the default one.
+fn built_in_policy(scene: &Scene) -> &'static TextFile {
+    let is_named = |file: &&TextFile| {
+        let name = Path::new(file.path).file_stem().and_then(|stem| stem.to_str());
+        scene.policy.as_ref().is_some_and(|policy| name == Some(&policy.name))
+    };
+    POLICIES.iter().find(is_named).unwrap_or(&DEFAULT_POLICY)
+}
+
+fn given_policy(input: &PolicyInput, files: &mut CommandFiles) -> Result<Loaded<Policy>, RequestError> {
+    let policy = match input {
+        PolicyInput::File(path) => load::policy(path, files)?,
+        PolicyInput::Text(source) => load::policy_in(source, files)?,
+        PolicyInput::BuiltIn(file) => load::built_in_policy(file)?,
+        PolicyInput::Machine(artifact) => {
+            let hash = Sha256::new_with_prefix(artifact.to_bytes()?);
+            Loaded { value: Policy { artifact: (**artifact).clone(), text: None }, hash }
+        }
+    };
+    match &policy.value.text {
+        Some(text) if text.is_test_file => {
+            Err(LoadError::TestFile { path: Path::new(&text.source.name).to_owned() }.into())
+        }
+        _ => Ok(policy),
+    }
+}
+
+impl From<Policy> for PreparedPolicy {
+    fn from(Policy { artifact, text }: Policy) -> Self {
+        let (text, warnings) = match text {
+            Some(PolicyText { source, warnings, .. }) => (Some(source), warnings),
+            None => (None, Vec::new()),
+        };
+        Self { artifact, text, warnings }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::built_in::{PLAUSIBLE_MISMATCH, SCENARIOS};
+
+    fn request() -> TrialRequest {
+        TrialRequest { world: Some(WorldKind::QuasiStatic), ..TrialRequest::new(Input::BuiltIn(&SCENARIOS[0])) }
+    }
+
+    #[test]
+    fn a_machine_runs_as_its_text_does_and_has_a_hash_of_its_own() {
+        let text = request().prepare().unwrap();
+        let machine = PolicyInput::Machine(Box::new(text.policy.artifact.clone()));
+        let machine = TrialRequest { policy: Some(machine), ..request() }.prepare().unwrap();
+        assert_eq!(machine.trial.program, text.trial.program);
+        assert_eq!(machine.trial.inputs.scenario_hash, text.trial.inputs.scenario_hash);
+        assert_ne!(machine.trial.inputs.policy_hash, text.trial.inputs.policy_hash);
+    }
+
+    #[test]
+    fn errors_are_told_as_the_program_prints_them() {
+        let fails = |change: &dyn Fn(&mut TrialRequest)| {
+            let mut request = request();
+            change(&mut request);
+            request.prepare().unwrap_err().to_string()
+        };
+        let text = |text: &str| Source::new("mine", text);
+        let told = fails(&|request| request.policy = Some(PolicyInput::Text(text("machine a  initial B"))));
+        assert!(told.starts_with("error[P") && told.contains(" --> mine:1:"), "{told}");
+        let told = fails(&|request| request.scenario = Input::Text(text("name: a\n")));
+        assert!(told.starts_with("error[S") && told.contains(" --> mine:1:"), "{told}");
+        let told = fails(&|request| request.scenario = Input::File("nowhere.yaml".into()));
+        assert!(told.starts_with("cannot read nowhere.yaml: "), "{told}");
+        let value = ParameterValue::parse("5 m").unwrap();
+        let told = fails(&|request| request.settings = vec![("speed".to_owned(), value.clone())]);
+        assert_eq!(told, "`speed` is a speed, not a length");
+    }
+
+    #[test]
+    fn options_replace_those_of_the_scenario() {
+        let mismatch = Some(Input::BuiltIn(&PLAUSIBLE_MISMATCH));
+        let given = TrialRequest { mismatch, mismatch_seed: Some(7), seed: Some(5), ..request() };
+        let trial =
+            TrialRequest { policy: Some(PolicyInput::BuiltIn(&DEFAULT_POLICY)), ..given }.prepare().unwrap().trial;
+        assert_eq!((trial.seed, trial.world.kind), (5, WorldKind::QuasiStatic));
+        assert_eq!(trial.scene.mismatch.unwrap().seed, Some(7));
+        assert_eq!(trial.program.name, "vibrissa");
+        assert!(request().prepare().unwrap().trial.scene.mismatch.is_none());
+    }
+}
