@@ -23,7 +23,7 @@ const POLICY: &str = "vibrissa.fsm";
 const PAGE: &str = "docs/results/pieces.md";
 /// The runs that decide about a part that changes none of the scenes of the families.
 const FURTHER: [&str; 2] =
-    ["families --world quasistatic --count 15 --seed 3002 --json", "bench --friction 0.1 --noise --json"];
+    ["families --world quasistatic --count 15 --seed 3002 --json", "bench --world quasistatic --friction 0.1 --noise --json"];
 
 /// How much is run, and with what program.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -168,7 +168,7 @@ fn page(worths: &[Worth], runs: usize) -> String {
         "# What each part of `vibrissa.fsm` is worth\n\n\
          Written by `cargo x pieces`. Each transition, rule and statement of the policy and of the libraries that it uses was removed \
          in turn. The policy then ran in {runs} random scenes of the [families](../families.md), quasi-static. If no run changed, it ran in 120 \
-         further scenes, and then in the [bench](../bench.md) with friction and noise in MuJoCo.\n\n\
+         further scenes, and then in the [bench](../bench.md) with friction and noise.\n\n\
          *Lost* is the number of runs that passed with the part and not without it, less those that passed only without it. *Changed* is the \
          number of runs with other figures.\n"
     );
