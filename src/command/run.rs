@@ -198,12 +198,14 @@ fn trial(
         seed: arguments.seed,
         ..TrialRequest::new(Input::File(path.to_owned()))
     };
-    let (trial, policy) = request.prepare_in(mismatch, files)?;
-    if let Some(text) = &policy.text
-        && warned.insert(text.source.name.clone())
-    {
-        output::warnings(&policy);
-    }
+    // The warnings may explain why a parameter cannot be set.
+    let (trial, policy) = request.prepare_in(mismatch, files, |policy| {
+        if let Some(text) = &policy.text
+            && warned.insert(text.source.name.clone())
+        {
+            output::warnings(policy);
+        }
+    })?;
     output::warn_of_rates(path, &trial.scene.rig, &policy.artifact.program);
     Ok(Prepared {
         trial,

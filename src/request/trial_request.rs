@@ -98,15 +98,16 @@ impl TrialRequest {
                 GivenMismatch::of_text(Source::new(file.path, file.text), self.mismatch_seed)?
             }
         };
-        let (trial, policy) = self.prepare_in(&mismatch, &mut files)?;
+        let (trial, policy) = self.prepare_in(&mismatch, &mut files, |_| ())?;
         Ok(PreparedTrial { trial, policy: policy.into() })
     }
 
-    /// The trial under a mismatch that has been read, and its policy.
+    /// The trial under a mismatch that has been read, and its policy. `compiled` receives the policy before its parameters are set.
     pub(crate) fn prepare_in(
         &self,
         mismatch: &GivenMismatch,
         files: &mut CommandFiles,
+        compiled: impl FnOnce(&Policy),
     ) -> Result<(Trial, Policy), RequestError> {
         let before = Instant::now();
         let source = scenario_text(&self.scenario, files)?;
@@ -120,6 +121,7 @@ impl TrialRequest {
             (None, Input::BuiltIn(_)) => load::built_in_policy(built_in_policy(&scene))?,
             (None, _) => load::policy_for(None, &scene, &source, files)?,
         };
+        compiled(&policy.value);
         let Loaded { value: policy, hash: policy_hash } = load::set(policy, &self.settings)?;
         let kind = self.world.or(scene.world).unwrap_or_default();
         let inputs = Inputs {
