@@ -16,7 +16,7 @@ fn between<'t>(text: &'t str, before: &str, after: &str) -> &'t str {
 /// A policy that moves ahead for three seconds and fails, in a scene of its own.
 fn failing(directory: &Path) -> String {
     let policy = "machine blind\nwhisker r0\ninitial Ahead\nstate Ahead {\n  steer body along direction(body.yaw) at 50 mm/s turning 0 deg/s\n  \
-                  timeout 3 s -> Failure(\"no <surface>\")\n}\n";
+                  after 3 s -> Failure(\"no <surface>\")\n}\n";
     fs::write(directory.join("blind.fsm"), policy).unwrap();
     let scene = "name: far\nobjects: [{circle: {centre: [3 m, 3 m], radius: 100 mm}}]\nstart: {position: [0 m, 0 m], heading: 0 deg}\n\
                  stop: {time: 9 s}\npolicy: blind.fsm\nworld: quasistatic\n";

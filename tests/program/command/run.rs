@@ -283,7 +283,7 @@ mod with_simulation {
         let output = vibrissa(&["run", "scenarios/disk.yaml", "--out", &out]);
         assert!(!strips.exists());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(stdout(&output).contains("disk.svg"));
+        assert!(stdout(&output).contains("index.html"));
         let picture = std::fs::read_to_string(directory.join("new/disk.svg")).unwrap();
         assert!(picture.starts_with("<svg"));
         let result = std::fs::read_to_string(directory.join("new/disk.json")).unwrap();
