@@ -91,7 +91,11 @@ fn line(plan: &Plan, run: &SweepRun<'_>, arguments: &WorkerArguments) -> SweepLi
         let finished = finished(&trial, is_drawn)?;
         if let (Some(figures), Some(folder)) = (&finished.figures, &arguments.folder) {
             let path = folder.join(format!("{}.svg", run.hash()));
-            CommandFiles::new().output("--out", &path)?.write(&figures.picture)?;
+            let written = CommandFiles::new().output("--out", &path).and_then(|file| file.write(&figures.picture));
+            // The result of a run does not depend on its picture.
+            if let Err(error) = written {
+                output::error(error);
+            }
         }
         Ok((finished, trial))
     });

@@ -22,8 +22,10 @@ const POLICY: &str = "vibrissa.fsm";
 /// The page with the result.
 const PAGE: &str = "docs/results/pieces.md";
 /// The runs that decide about a part that changes none of the scenes of the families.
-const FURTHER: [&str; 2] =
-    ["families --world quasistatic --count 15 --seed 3002 --json", "bench --world quasistatic --friction 0.1 --noise --json"];
+const FURTHER: [&str; 2] = [
+    "families --world quasistatic --count 15 --seed 3002 --json",
+    "bench --world quasistatic --friction 0.1 --noise --json",
+];
 
 /// How much is run, and with what program.
 #[derive(Debug, Clone, PartialEq, Eq)]
