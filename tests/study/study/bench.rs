@@ -143,7 +143,7 @@ fn the_table_marks_figures_that_are_better_than_the_baselines() {
 #[test]
 fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     let attack = "<script>alert(\"1\")</script> & more";
-    let scene = "objects: [{circle: {centre: [0 m, 0 m], radius: 30 mm}}]\nstart: {position: [1 m, 1 m], heading: 0 deg}\n\
+    let scene = "name: disk\nobjects: [{circle: {centre: [0 m, 0 m], radius: 30 mm}}]\nstart: {position: [1 m, 1 m], heading: 0 deg}\n\
                  stop: {time: 1 s}\npolicy: a.fsm\n";
     let scene = scenario::read(&Source::new("disk.yaml", scene)).unwrap();
     // The third tip is 2 mm off the disk.
