@@ -35,7 +35,7 @@ use super::trace::Trace;
 ///     }
 /// };
 /// let result = trial.scored(run.finish(ending));
-/// assert_eq!(result.score, trial.run().unwrap().score);
+/// assert_eq!(result.score.error, trial.run().unwrap().score.error);
 /// ```
 #[derive(Debug)]
 pub struct SteppedRun {
