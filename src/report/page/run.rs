@@ -37,8 +37,8 @@ struct WorstTip {
     error: f64,
     /// Its position (m, world frame).
     tip_world: Point2,
-    /// Its position on the picture (px).
-    position: (f64, f64),
+    /// Its position on the picture (px). `None` if the map does not show it.
+    position: Option<(f64, f64)>,
     /// Its time (s).
     time: f64,
     /// Name of the active state.
@@ -97,9 +97,9 @@ fn worst(plotted: &PlottedRun, trace: &Trace) -> Option<WorstTip> {
 /// The positions with as many digits as a pointer can distinguish.
 fn positions(plotted: &PlottedRun, trace: &Trace) -> String {
     let tenth = |value: f64| (10.0 * value).round() / 10.0;
-    let tips = plotted.tips.iter().map(|tip| {
-        let (x, y) = tip.position;
-        (tenth(x), tenth(y), tenth(1e6 * tip.error), (100.0 * tip.time).round() / 100.0, tip.state, tip.whisker)
+    let tips = plotted.tips.iter().filter_map(|tip| {
+        let (x, y) = tip.position?;
+        Some((tenth(x), tenth(y), tenth(1e6 * tip.error), (100.0 * tip.time).round() / 100.0, tip.state, tip.whisker))
     });
     let positions = Positions {
         sides: plotted.sides,
@@ -217,7 +217,7 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
     let policy = result.policy_label();
     let name = format!("{scene}-{policy}").replace(", ", "-").replace(' ', "-");
     let caption = html! {
-        @if let Some(worst) = &figures.worst { "Largest error: " (place(worst)) " The ring marks it." }
+        @if let Some(worst) = &figures.worst { "Largest error: " (place(worst)) @if worst.position.is_some() { " The ring marks it." } @else { " It is outside of the map." } }
         @else { "The policy recorded no tip." }
     };
     html! {
@@ -243,7 +243,7 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
 
 /// The picture with a ring around the largest error.
 fn with_ring(figures: &RunFigures) -> String {
-    let Some(WorstTip { position: (x, y), .. }) = figures.worst else { return figures.picture.clone() };
+    let Some(WorstTip { position: Some((x, y)), .. }) = figures.worst else { return figures.picture.clone() };
     let ring = format!(
         "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"11\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\"/></svg>",
         style::ALARM

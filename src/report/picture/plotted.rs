@@ -9,7 +9,7 @@ use crate::score::Tip;
 pub(in crate::report) struct PlottedRun {
     /// The picture, a self-contained SVG.
     pub(in crate::report) svg: String,
-    /// The tip estimates within the map.
+    /// All tip estimates.
     pub(in crate::report) tips: Vec<PlottedTip>,
     /// The left and the right side of the strips (px). They are at the time 0 and at the end.
     pub(in crate::report) sides: (f64, f64),
@@ -22,8 +22,8 @@ pub(in crate::report) struct PlottedRun {
 /// A tip estimate on a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::report) struct PlottedTip {
-    /// Its position on the map (px).
-    pub(in crate::report) position: (f64, f64),
+    /// Its position on the map (px). `None` if the map does not show it.
+    pub(in crate::report) position: Option<(f64, f64)>,
     /// The estimated position (m, world frame).
     pub(in crate::report) tip_world: Point2,
     /// Its distance from the nearest surface (m).
@@ -49,7 +49,7 @@ impl PlottedRun {
         let plotted = tips.iter().filter_map(|tip| {
             let tick = trace.ticks.get(tip.tick)?;
             Some(PlottedTip {
-                position: map.position(tip.tip_world),
+                position: Some(map.position(tip.tip_world)).filter(|position| map.shows(*position)),
                 tip_world: tip.tip_world,
                 error: tip.error,
                 time: tick.time,
@@ -57,7 +57,7 @@ impl PlottedRun {
                 whisker: tip.whisker,
             })
         });
-        let tips = plotted.filter(|tip| map.shows(tip.position)).collect();
+        let tips = plotted.collect();
         let end = trace.ticks.last().map_or(0.0, |tick| tick.time).max(trace.period);
         Self { svg, tips, sides, strips, end }
     }

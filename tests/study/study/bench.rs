@@ -146,9 +146,9 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     let scene = "name: disk\nobjects: [{circle: {centre: [0 m, 0 m], radius: 30 mm}}]\nstart: {position: [1 m, 1 m], heading: 0 deg}\n\
                  stop: {time: 1 s}\npolicy: a.fsm\n";
     let scene = scenario::read(&Source::new("disk.yaml", scene)).unwrap();
-    // The third tip is 2 mm off the disk.
+    // The third tip is 5 m off the disk, which the map does not show.
     let mut tips = arc_of_tips(0.0301, 0.0, TAU, 0.05 / 30.0);
-    tips[2] = Some(Point2::new(0.032, 0.0));
+    tips[2] = Some(Point2::new(5.03, 0.0));
     let mut run = run_with(&[tips]);
     run.trace.states = vec![attack.to_owned()];
     let score = Score::new(&run, &scene.truth, &scene.rig);
@@ -168,5 +168,6 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     unique.sort_unstable();
     unique.dedup();
     assert_eq!(unique.len(), identifiers.len(), "{identifiers:?}");
-    assert!(page.contains("<b>2.00 mm</b> at (32 mm, 0 mm)"), "the largest error is not named");
+    assert!(page.contains("<b>5000 mm</b> at (5030 mm, 0 mm)"), "the largest error is not named");
+    assert!(page.contains("It is outside of the map."));
 }
