@@ -83,6 +83,7 @@ impl Senses for Script {
             BodyScalar::TailWidth => 0.11,
             BodyScalar::NoseReach => 0.1,
             BodyScalar::Flexibility => 1.25,
+            BodyScalar::Decay => 0.25,
         }
     }
 

@@ -173,6 +173,7 @@ impl Senses for Told {
             BodyScalar::TailWidth => "body.tail_width",
             BodyScalar::NoseReach => "nose",
             BodyScalar::Flexibility => "body.flexibility",
+            BodyScalar::Decay => "body.decay",
         })
     }
 

@@ -21,9 +21,8 @@ fn all_fulfil_their_expectations_without_inertia() {
     fulfils_all(&["wide-body-box", "long-whisker-box", "short-whisker-disk"], "quasistatic");
 }
 
-/// Long whiskers swing longer than the times in the library allow for.
 #[cfg(feature = "sim")]
 #[test]
-fn rigs_without_long_whiskers_fulfil_their_expectations_with_inertia() {
-    fulfils_all(&["wide-body-box", "short-whisker-disk"], "mujoco");
+fn all_fulfil_their_expectations_with_inertia() {
+    fulfils_all(&["wide-body-box", "long-whisker-box", "short-whisker-disk"], "mujoco");
 }

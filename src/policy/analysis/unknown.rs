@@ -67,6 +67,7 @@ impl Domain {
                 range(0.0, DISTANCE_LIMIT)
             }
             Unknown::Body(BodyScalar::Flexibility) => range(f64::MIN_POSITIVE, 1e9),
+            Unknown::Body(BodyScalar::Decay) => range(0.0, 1e9),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),

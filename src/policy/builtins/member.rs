@@ -205,7 +205,7 @@ const CONTOUR: [Member; 6] = [
     ),
 ];
 
-const BODY: [Member; 11] = [
+const BODY: [Member; 12] = [
     member(
         "yaw",
         Type::ANGLE,
@@ -256,6 +256,12 @@ const BODY: [Member; 11] = [
         Type::NUMBER,
         MemberSource::Body(BodyScalar::Flexibility),
         "the ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape, from the rig",
+    ),
+    member(
+        "decay",
+        Type::TIME,
+        MemberSource::Body(BodyScalar::Decay),
+        "the time in which a free vibration of the first bound whisker decreases to 37 %, from the rig",
     ),
 ];
 

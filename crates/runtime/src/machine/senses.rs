@@ -88,6 +88,8 @@ pub enum BodyScalar {
     NoseReach,
     /// Ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape.
     Flexibility,
+    /// Time (s) in which the amplitude of the first bound whisker, vibrating freely, decreases to 1/e.
+    Decay,
 }
 
 /// Scalars and booleans of a whisker.

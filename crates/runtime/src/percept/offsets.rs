@@ -125,11 +125,13 @@ impl Offsets {
         waiting.rotate_left(1);
         waiting[WAITING - 1] = Some(reading);
         if let Some(oldest) = oldest {
-            self.measure(whisker, oldest);
+            let swing = swing(&oldest, waiting);
+            self.measure(whisker, oldest, swing);
         }
     }
 
-    fn measure(&mut self, whisker: usize, FreeReading { reading, bent, deviation }: FreeReading) {
+    /// Adds a reading of a whisker that swings with this amplitude (rad).
+    fn measure(&mut self, whisker: usize, FreeReading { reading, bent, deviation }: FreeReading, swing: f64) {
         let (inertia, measured, bent) = (2 * self.count, 2 * whisker, bent / MICRO);
         if bent.abs() > MOST_BENT {
             return;
@@ -140,7 +142,8 @@ impl Offsets {
             + bent * column[inertia]
             + math::square(SWING)
             + math::square(SWING_SHARE * bent)
-            + math::square(deviation / MICRO);
+            + math::square(deviation / MICRO)
+            + math::square(swing / MICRO);
         let innovation = reading / MICRO - self.state[measured] - bent * self.state[inertia];
         if math::square(innovation) > math::square(GATE) * variance {
             return;
@@ -158,8 +161,19 @@ impl Offsets {
     }
 }
 
+/// The amplitude (rad) of the swing of a whisker: half the range of a reading and of those after it. A long whisker swings for seconds
+/// after it slipped off. Without the amplitude in its standard deviation, a small base angle would look like an offset.
+fn swing(reading: &FreeReading, later: &[Option<FreeReading>]) -> f64 {
+    let readings = later.iter().flatten().map(|later| later.reading - reading.reading);
+    let (least, most) = readings
+        .fold((0.0, 0.0), |(least, most), difference| (math::min(least, difference), math::max(most, difference)));
+    (most - least) / 2.0
+}
+
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use proptest::prelude::*;
 
     use super::super::robust_variance::tests::normals;
@@ -213,6 +227,22 @@ mod tests {
                 offsets.add(0, Some(free(offset + if tick < 170 { 0.0 } else { touch }, 0.0, 1e-7)));
             }
             prop_assert!((offsets.value(0) - offset).abs() < TOLERATED);
+        }
+
+        #[test]
+        fn a_whisker_that_swings_is_no_offset(
+            amplitude in 2e-6..2e-5_f64, frequency in 6.0..12.0_f64, decay in 0.5..3.0_f64, phase in 0.0..6.3_f64,
+        ) {
+            let mut offsets = Offsets::new(1);
+            for tick in 0..300 {
+                let time = PERIOD * f64::from(tick);
+                offsets.predict(PERIOD);
+                let reading = amplitude * math::exp(-time / decay) * math::cos(phase + TAU * frequency * time);
+                // Perception takes a larger base angle for a touch.
+                let free = reading.abs() < 1e-5;
+                offsets.add(0, free.then(|| self::free(reading, 0.0, 1e-8)));
+                prop_assert!(offsets.value(0).abs() < TOLERATED, "{time} s: {}", offsets.value(0));
+            }
         }
 
         #[test]

@@ -8,7 +8,7 @@ use crate::machine::{
     WhiskerVector,
 };
 use crate::math;
-use crate::rig::{Platform, Rig, Whisker};
+use crate::rig::{Platform, Rig, Vibration, Whisker};
 use crate::signal::{Command, Sample};
 
 use super::contact::Contact;
@@ -31,6 +31,9 @@ use super::whisker::PerceivedWhisker;
 
 use ContactEstimatorKind as Kind;
 
+/// The longest decay of a vibration (s). A whisker without damping never comes to rest, and policies read finite numbers.
+const LONGEST_DECAY: f64 = 1e3;
+
 /// A vector of a contour that has none.
 const UNDEFINED: Vector2 = Vector2::new(f64::NAN, f64::NAN);
 
@@ -45,6 +48,8 @@ pub struct Perception {
     platform: Platform,
     /// Flexibility of the first whisker that the policy binds.
     flexibility: f64,
+    /// Time (s) in which its free vibration decreases to 1/e.
+    decay: f64,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
@@ -168,12 +173,14 @@ impl Perception {
             Ok(PerceivedWhisker::new(&whisker, filter, curve, estimator, sensing))
         });
         let perceived = perceived.collect::<Result<_, PerceptionError>>()?;
+        let first = whiskers.iter().flatten().next().map(|&first| &rig.whiskers[first]);
         Ok(Self {
             time: 0.0,
             body: Pose::default(),
             at_effect: Pose::default(),
             platform: rig.platform.clone(),
-            flexibility: whiskers.iter().flatten().next().map_or(1.0, |&first| rig.whiskers[first].flexibility()),
+            flexibility: first.map_or(1.0, Whisker::flexibility),
+            decay: first.map_or(0.0, |first| math::min(Vibration::of(first).decay, LONGEST_DECAY)),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             contours: Vec::new(),
@@ -390,6 +397,7 @@ impl Senses for Perception {
             BodyScalar::TailWidth => self.platform.tail_width,
             BodyScalar::NoseReach => self.platform.length - self.platform.centre_of_mass,
             BodyScalar::Flexibility => self.flexibility,
+            BodyScalar::Decay => self.decay,
         }
     }
 

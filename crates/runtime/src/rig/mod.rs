@@ -8,6 +8,7 @@ mod platform;
 mod sensing;
 mod shaft;
 mod thesis_array;
+mod vibration;
 mod whisker;
 
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,7 @@ pub use hinge::Hinge;
 pub use platform::{Platform, YawController};
 pub use sensing::Sensing;
 pub use shaft::Shaft;
+pub use vibration::Vibration;
 pub use whisker::Whisker;
 
 /// A platform with whiskers and sensors.
