@@ -180,20 +180,28 @@ fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>
         let Drawn { family, number: trial, draw } = drawn;
         let Finished { result, violations, figures } = finished;
         let passed = violations.is_empty();
-        let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
+        let reasons = violations.iter().map(|violation| reason(violation, result.reason.as_deref())).collect();
+        let run = FamilyRun {
+            family,
+            trial,
+            about: draw.scene.description,
+            speed: draw.speed,
+            passed,
+            violations: reasons,
+            result,
+        };
         if !passed {
-            report_run(&run, &violations);
+            report_run(&run);
         }
         (run, figures.map(|figures| figures.picture))
     });
     rows.unzip()
 }
 
-fn report_run(run: &FamilyRun, violations: &[Violation]) {
-    let FamilyRun { family, trial, about, speed, result, .. } = run;
+fn report_run(run: &FamilyRun) {
+    let FamilyRun { family, trial, about, speed, violations, .. } = run;
     let speed = 100.0 * speed;
-    let reasons: Vec<String> = violations.iter().map(|violation| reason(violation, result.reason.as_deref())).collect();
-    let reasons = reasons.join("; ");
+    let reasons = violations.join("; ");
     output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {reasons}"));
 }
 

@@ -101,7 +101,8 @@ fn line(plan: &Plan, run: &SweepRun<'_>, arguments: &WorkerArguments) -> SweepLi
     });
     match finished {
         Ok((finished, trial)) => {
-            SweepLine::ran(run, trial.scene.description, finished.violations.is_empty(), finished.result)
+            let violations = finished.violations.iter().map(ToString::to_string).collect();
+            SweepLine::ran(run, trial.scene.description, violations, finished.result)
         }
         Err(failure) => SweepLine::refused(run, reason(&failure)),
     }

@@ -19,6 +19,8 @@ pub(crate) struct FamilyRun {
     pub speed: f64,
     /// True if the run completed, traced its object, and the body touched nothing.
     pub passed: bool,
+    /// Descriptions of what did not hold. Empty if the run passed.
+    pub violations: Vec<String>,
     /// The result.
     #[serde(flatten)]
     pub result: RunResult,

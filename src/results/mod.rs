@@ -5,6 +5,7 @@ mod contract_result;
 mod document;
 mod drive_result;
 mod inclination;
+mod largest_error;
 mod replay_result;
 mod run_result;
 mod shown_value;
@@ -16,6 +17,7 @@ pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
 pub use inclination::Inclination;
+pub use largest_error::LargestError;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub(crate) use run_result::marked;
 pub use run_result::{

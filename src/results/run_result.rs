@@ -4,6 +4,7 @@ use super::Document;
 use super::collisions::Collisions;
 use super::contract_result::ContractResult;
 use super::inclination::Inclination;
+use super::largest_error::LargestError;
 use serde::{Serialize, Serializer};
 
 use crate::run::{Run, Trace};
@@ -49,6 +50,8 @@ pub struct RunResult {
     pub realtime: Option<f64>,
     /// Distance of the tip estimates from the nearest surface.
     pub error_mm: ErrorMm,
+    /// The tip estimate with the largest of these distances. `None` if the run recorded no tip.
+    pub largest_error: Option<LargestError>,
     /// Distance of the tip estimates from the true tips. `None` if the run recorded no tip.
     pub tip_error_mm: Option<TipErrorMm>,
     /// Share of the reference that was traced, 0 to 1.
@@ -342,6 +345,7 @@ impl RunResult {
                 outliers: error.map(|error| error.outliers),
                 n: error.map_or(0, |error| error.count),
             },
+            largest_error: score.largest_error.as_ref().and_then(|tip| LargestError::new(tip, &run.trace)),
             tip_error_mm: error.and_then(|error| {
                 let figures = |distance: TipDistance| MeanP95Max {
                     mean: millimetres(distance.mean),

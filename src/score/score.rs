@@ -2,8 +2,8 @@
 
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
-    Passage, RetrievalFigures, StateShare, axis_error, body_path, coverage, hausdorff, object_coverage, out_of_reach,
-    outline_coverages, state_shares, tips,
+    Passage, RetrievalFigures, StateShare, Tip, axis_error, body_path, coverage, hausdorff, object_coverage,
+    out_of_reach, outline_coverages, state_shares, tips,
 };
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
@@ -14,6 +14,8 @@ use vibrissa_runtime::rig::Rig;
 pub struct Score {
     /// Errors of the tip estimates. `None` without recorded tips.
     pub error: Option<ErrorFigures>,
+    /// The tip estimate with the largest error. `None` without recorded tips.
+    pub largest_error: Option<Tip>,
     /// The [traced share of the reference](coverage), 0 to 1.
     pub coverage: f64,
     /// The traced share of the [object whose loop closed](object_coverage), 0 to 1.
@@ -60,6 +62,7 @@ impl Score {
         let outlines = outline_coverages(&estimate, &truth.reference);
         Self {
             error: ErrorFigures::of(&tips),
+            largest_error: tips.iter().max_by(|a, b| a.error.total_cmp(&b.error)).copied(),
             coverage: coverage(&estimate, &truth.reference),
             object_coverage: object_coverage(&outlines, last_tip, &truth.reference),
             outline_coverages: outlines,

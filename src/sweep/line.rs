@@ -40,6 +40,8 @@ impl Document for SweepLine {
 enum End {
     Result {
         about: String,
+        /// Descriptions of what did not hold. Empty if the run passed.
+        violations: Vec<String>,
         #[serde(flatten)]
         result: Box<RunResult>,
     },
@@ -51,10 +53,10 @@ enum End {
 }
 
 impl SweepLine {
-    /// The line of a run that took place. `about` describes the scene.
+    /// The line of a run that took place. `about` describes the scene. Without `violations` the run passed.
     #[must_use]
-    pub(crate) fn ran(run: &SweepRun<'_>, about: String, passed: bool, result: RunResult) -> Self {
-        Self::new(run, passed, End::Result { about, result: Box::new(result) })
+    pub(crate) fn ran(run: &SweepRun<'_>, about: String, violations: Vec<String>, result: RunResult) -> Self {
+        Self::new(run, violations.is_empty(), End::Result { about, violations, result: Box::new(result) })
     }
 
     /// The line of a run that could not begin.

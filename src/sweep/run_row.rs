@@ -10,7 +10,7 @@ use super::lines::Lines;
 use super::results::{self, ResultsError};
 use super::{Sweep, SweepRun};
 use crate::file;
-use crate::results::Ending;
+use crate::results::{Ending, LargestError};
 
 /// The result of a run in short.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -30,6 +30,11 @@ pub(crate) struct RunRow {
     pub about: Option<String>,
     /// Share of the reference that was traced, 0 to 1.
     pub coverage: Option<f64>,
+    /// The tip estimate with the largest error.
+    pub largest_error: Option<LargestError>,
+    /// Descriptions of what did not hold. A file of an older program has none.
+    #[serde(default)]
+    pub violations: Vec<String>,
     error_mm: Option<Errors>,
     collisions: Option<Collisions>,
 }
@@ -37,7 +42,6 @@ pub(crate) struct RunRow {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 struct Errors {
     mean: Option<f64>,
-    max: Option<f64>,
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -48,7 +52,7 @@ struct Collisions {
 impl RunRow {
     /// Mean and largest error of its tips (mm).
     pub(crate) fn errors_mm(&self) -> [Option<f64>; 2] {
-        self.error_mm.as_ref().map_or([None; 2], |errors| [errors.mean, errors.max])
+        [self.error_mm.as_ref().and_then(|errors| errors.mean), self.largest_error.as_ref().map(|worst| worst.error_mm)]
     }
 
     /// Number of collisions of the body.

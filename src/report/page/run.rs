@@ -4,11 +4,10 @@ use maud::{Markup, html};
 use serde::Serialize;
 
 use super::figure::{figure, namespaced};
-use crate::geometry::Point2;
 use crate::report::number::millimetres;
 use crate::report::picture::{PlottedRun, colour_of, histogram, plotted, state_band};
 use crate::report::style;
-use crate::results::RunResult;
+use crate::results::{LargestError, RunResult};
 use crate::run::{Run, Trace};
 use crate::scene::{Outcome, Scene};
 use crate::score::Score;
@@ -24,27 +23,10 @@ pub struct RunFigures {
     band: String,
     /// Histograms of the errors and of the times of control ticks (SVG).
     histograms: [Option<String>; 2],
-    /// The tip estimate with the largest error.
-    worst: Option<WorstTip>,
+    /// Position of the largest error on the picture (px). `None` if the map does not show it.
+    ring: Option<(f64, f64)>,
     /// Its duration (s).
     duration: f64,
-}
-
-/// The tip estimate with the largest error of a run.
-#[derive(Debug, Clone, PartialEq)]
-struct WorstTip {
-    /// Its error (m).
-    error: f64,
-    /// Its position (m, world frame).
-    tip_world: Point2,
-    /// Its position on the picture (px). `None` if the map does not show it.
-    position: Option<(f64, f64)>,
-    /// Its time (s).
-    time: f64,
-    /// Name of the active state.
-    state: String,
-    /// Name of its whisker.
-    whisker: String,
 }
 
 /// Positions on a picture, for the script.
@@ -74,24 +56,11 @@ impl RunFigures {
             positions: positions(&plotted, &run.trace),
             band: state_band(&run.trace),
             histograms,
-            worst: worst(&plotted, &run.trace),
+            ring: plotted.tips.iter().max_by(|a, b| a.error.total_cmp(&b.error)).and_then(|tip| tip.position),
             duration: plotted.end,
             picture: plotted.svg,
         }
     }
-}
-
-fn worst(plotted: &PlottedRun, trace: &Trace) -> Option<WorstTip> {
-    let tip = plotted.tips.iter().max_by(|a, b| a.error.total_cmp(&b.error))?;
-    let state = tip.state.and_then(|state| trace.states.get(state));
-    Some(WorstTip {
-        error: tip.error,
-        tip_world: tip.tip_world,
-        position: tip.position,
-        time: tip.time,
-        state: state.cloned().unwrap_or_else(|| "Failure".to_owned()),
-        whisker: trace.whiskers.get(tip.whisker).cloned().unwrap_or_default(),
-    })
 }
 
 /// The positions with as many digits as a pointer can distinguish.
@@ -149,7 +118,7 @@ pub(super) fn overview(runs: &[PageRun<'_>]) -> Markup {
             div.bands {
                 @for (index, run) in runs.iter().enumerate() {
                     div.label { (link(index, run)) }
-                    div.lane { (band(run.figures, &format!("band{index}-"), longest)) }
+                    div.lane { (band(run, &format!("band{index}-"), longest)) }
                 }
             }
         }
@@ -159,8 +128,8 @@ pub(super) fn overview(runs: &[PageRun<'_>]) -> Markup {
 /// For each policy, its run with the largest error.
 fn worst_runs<'r, 'a>(runs: &'r [PageRun<'a>]) -> Vec<(usize, &'r PageRun<'a>)> {
     let mut worst: Vec<(usize, &PageRun<'_>)> = Vec::new();
-    let error = |run: &PageRun<'_>| run.figures.worst.as_ref().map_or(f64::NEG_INFINITY, |worst| worst.error);
-    for (index, run) in runs.iter().enumerate().filter(|(_, run)| run.figures.worst.is_some()) {
+    let error = |run: &PageRun<'_>| run.result.largest_error.as_ref().map_or(f64::NEG_INFINITY, |worst| worst.error_mm);
+    for (index, run) in runs.iter().enumerate().filter(|(_, run)| run.result.largest_error.is_some()) {
         let policy = run.result.policy_label();
         match worst.iter_mut().find(|(_, other)| other.result.policy_label() == policy) {
             Some(entry) if error(run) > error(entry.1) => *entry = (index, run),
@@ -172,16 +141,16 @@ fn worst_runs<'r, 'a>(runs: &'r [PageRun<'a>]) -> Vec<(usize, &'r PageRun<'a>)> 
 }
 
 fn worst_sentence(index: usize, run: &PageRun<'_>) -> Markup {
-    let Some(worst) = &run.figures.worst else { return html! {} };
+    let Some(worst) = &run.result.largest_error else { return html! {} };
     html! { b { (run.result.policy_label()) ": " } (link(index, run)) ", " (place(worst)) }
 }
 
 /// The error with its position, time and state.
-fn place(WorstTip { error, tip_world, time, state, whisker, .. }: &WorstTip) -> Markup {
-    let [x, y] = [tip_world.x, tip_world.y].map(|part| 1e3 * part);
+pub(super) fn place(LargestError { error_mm, tip_m, time_s, state, whisker }: &LargestError) -> Markup {
+    let [x, y] = tip_m.map(|part| 1e3 * part);
     html! {
-        b { (millimetres(1e3 * error)) " mm" } " at (" (format!("{x:.0}")) " mm, " (format!("{y:.0}")) " mm), after "
-        (format!("{time:.1}")) " s, in the state " b { (state) } ", by the whisker " (whisker) "."
+        b { (millimetres(*error_mm)) " mm" } " at (" (format!("{x:.0}")) " mm, " (format!("{y:.0}")) " mm), after "
+        (format!("{time_s:.1}")) " s, in the state " b { (state.as_deref().unwrap_or("Failure")) } ", by the whisker " (whisker) "."
     }
 }
 
@@ -201,12 +170,12 @@ fn reason(run: &PageRun<'_>) -> String {
 }
 
 /// The band of a run on a lane of the length `longest` (s).
-fn band(figures: &RunFigures, prefix: &str, longest: f64) -> Markup {
+fn band(run: &PageRun<'_>, prefix: &str, longest: f64) -> Markup {
     let share = |time: f64| format!("{:.2}%", 100.0 * time / longest.max(f64::MIN_POSITIVE));
     html! {
-        div.band style=(format!("width:{}", share(figures.duration))) { (maud::PreEscaped(namespaced(&figures.band, prefix))) }
-        @if let Some(worst) = &figures.worst {
-            span.ring style=(format!("left:{}", share(worst.time))) {}
+        div.band style=(format!("width:{}", share(run.figures.duration))) { (maud::PreEscaped(namespaced(&run.figures.band, prefix))) }
+        @if let Some(worst) = &run.result.largest_error {
+            span.ring style=(format!("left:{}", share(worst.time_s))) {}
         }
     }
 }
@@ -217,7 +186,7 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
     let policy = result.policy_label();
     let name = format!("{scene}-{policy}").replace(", ", "-").replace(' ', "-");
     let caption = html! {
-        @if let Some(worst) = &figures.worst { "Largest error: " (place(worst)) @if worst.position.is_some() { " The ring marks it." } @else { " It is outside of the map." } }
+        @if let Some(worst) = &result.largest_error { "Largest error: " (place(worst)) @if figures.ring.is_some() { " The ring marks it." } @else { " It is outside of the map." } }
         @else { "The policy recorded no tip." }
     };
     html! {
@@ -243,7 +212,7 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
 
 /// The picture with a ring around the largest error.
 fn with_ring(figures: &RunFigures) -> String {
-    let Some(WorstTip { position: Some((x, y)), .. }) = figures.worst else { return figures.picture.clone() };
+    let Some((x, y)) = figures.ring else { return figures.picture.clone() };
     let ring = format!(
         "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"11\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\"/></svg>",
         style::ALARM

@@ -3,11 +3,12 @@
 use maud::{Markup, html};
 
 use super::document::page;
+use super::run::place;
 use super::table::{Judgement, PageCell, PageTable};
 use crate::report::number::millimetres;
 use crate::report::table::{NONE, percent};
 use crate::report::tables::summary_table;
-use crate::results::{Ending, Tally};
+use crate::results::{Ending, LargestError, Tally};
 use crate::sweep::{RunRow, SweepGroup, SweepSummary};
 
 /// A page with heat maps of a sweep, the table of its groups and the runs of each group. `pictures` gives the address of the picture of
@@ -23,13 +24,11 @@ pub(crate) fn sweep_page(
         groups.iter().fold((0, 0), |(runs, passed), group| (runs + group.tally.runs, passed + group.tally.passed));
     let introduction = html! {
         p.lead { (passed) " of " (runs) " runs passed, in " (groups.len()) " groups." }
-        @if let Some((index, worst)) = worst_group(groups) {
-            p { "The group with the fewest passes: " a href=(address(index)) { (label(worst)) } ", "
-                (worst.tally.passed) " of " (worst.tally.runs) " passed." }
-        }
+        (worst_groups(groups))
     };
     let table = PageTable::new(summary.sweep.clone(), &summary_table(groups)).linked(|index| Some(address(index)));
     let sections = html! {
+        (largest_errors(groups, rows))
         (heat_maps(groups))
         section { h2 { "Groups" } (table.markup()) }
         section {
@@ -50,10 +49,55 @@ fn address(index: usize) -> String {
     format!("#group{index}")
 }
 
-fn worst_group(groups: &[SweepGroup]) -> Option<(usize, &SweepGroup)> {
+/// Number of groups with the fewest passes that are named.
+const WORST_NAMED: usize = 3;
+
+/// A sentence with the groups that have the smallest share of passed runs, if not all runs of all groups passed.
+fn worst_groups(groups: &[SweepGroup]) -> Markup {
     let share = |group: &SweepGroup| group.tally.passed as f64 / group.tally.runs.max(1) as f64;
-    let worst = groups.iter().enumerate().min_by(|a, b| share(a.1).total_cmp(&share(b.1)))?;
-    (groups.len() > 1 && worst.1.tally.passed < worst.1.tally.runs).then_some(worst)
+    let least = groups.iter().map(share).fold(1.0, f64::min);
+    let worst: Vec<_> = groups.iter().enumerate().filter(|(_, group)| share(group) <= least).collect();
+    if groups.len() < 2 || least >= 1.0 {
+        return html! {};
+    }
+    html! {
+        p {
+            "The fewest runs passed, " (percent(least, 0)) ", in "
+            @if worst.len() > WORST_NAMED { (worst.len()) " groups. The first of them: " }
+            @for (place, (index, group)) in worst.iter().take(WORST_NAMED).enumerate() {
+                @if place > 0 { "; " }
+                a href=(address(*index)) { (label(group)) }
+            }
+            "."
+        }
+    }
+}
+
+/// For each policy, the run with the largest error.
+fn largest_errors(groups: &[SweepGroup], rows: &[Vec<RunRow>]) -> Markup {
+    let mut worst: Vec<(usize, &SweepGroup, &RunRow, &LargestError)> = Vec::new();
+    let runs = groups.iter().zip(rows).enumerate().flat_map(|(index, (group, rows))| {
+        rows.iter().filter_map(move |row| Some((index, group, row, row.largest_error.as_ref()?)))
+    });
+    for run in runs {
+        match worst.iter_mut().find(|(_, group, ..)| group.policy == run.1.policy) {
+            Some(entry) if run.3.error_mm > entry.3.error_mm => *entry = run,
+            Some(_) => {}
+            None => worst.push(run),
+        }
+    }
+    html! {
+        @if !worst.is_empty() {
+            section {
+                h2 { "Largest errors" }
+                ul.worst {
+                    @for (index, group, row, error) in worst {
+                        li { b { (group.policy) ": " } a href=(address(index)) { (label(group)) } ", trial " (row.trial) ", " (place(error)) }
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// The names of a group in one line.
@@ -77,15 +121,27 @@ fn run_table(group: &SweepGroup, rows: &[RunRow], picture: impl Fn(&RunRow) -> O
             link: None,
         };
         let coverage = row.coverage.map_or_else(|| NONE.to_owned(), |coverage| percent(coverage, 1));
-        let about = row.reason.clone().or_else(|| row.about.clone()).unwrap_or_default();
-        let texts = [mean, max, coverage, row.collision_count().to_string(), about].map(PageCell::from);
+        let reasons =
+            if row.violations.is_empty() { row.reason.clone().unwrap_or_default() } else { row.violations.join("; ") };
+        let about = row.about.clone().unwrap_or_default();
+        let texts = [mean, max, coverage, row.collision_count().to_string(), reasons, about].map(PageCell::from);
         [PageCell::from(row.trial.to_string()), outcome, passed].into_iter().chain(texts).collect()
     };
     PageTable {
         title: label(group),
-        headings: ["trial", "outcome", "passed", "error mm", "largest error mm", "coverage", "collisions", "about"]
-            .map(str::to_owned)
-            .to_vec(),
+        headings: [
+            "trial",
+            "outcome",
+            "passed",
+            "error mm",
+            "largest error mm",
+            "coverage",
+            "collisions",
+            "reason",
+            "about",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
         names: 3,
         rows: rows.iter().map(cells).collect(),
     }
@@ -221,7 +277,7 @@ fn heat_map(
                             @let group = groups.iter().enumerate().find(|(_, group)| is_shown(group) && is_in(group, column, row));
                             @match group {
                                 Some((index, group)) => td style=[heat(group).map(|heat| format!("--heat:{:.0}%", 100.0 * heat))] {
-                                    a href=(address(index)) title=(label(group)) { ((measure.text)(&group.tally)) }
+                                    a href=(address(index)) title=(label(group)) aria-label=(format!("{}: {}, {}", measure.name, (measure.text)(&group.tally), label(group))) { ((measure.text)(&group.tally)) }
                                 },
                                 None => td { (NONE) },
                             }
