@@ -1,0 +1,187 @@
+import { element } from "../shared/element.ts";
+import type { Answer } from "./answer.ts";
+import { BreakpointList } from "./breakpoints.ts";
+import { ChartPanel } from "./chart-panel.ts";
+import { Connection } from "./connection.ts";
+import { Controls } from "./controls.ts";
+import { Counterfactual } from "./counterfactual.ts";
+import { Figures } from "./figures.ts";
+import { Guards } from "./guards.ts";
+import { Plot, type Subject } from "./plot.ts";
+import type { GuardInfo, Hello, PageMessage, ServerMessage } from "./protocol.ts";
+import { Run } from "./run.ts";
+import { Scene } from "./scene.ts";
+import { subjectsOf, subjects } from "./subjects.ts";
+import type { Actions, Panel, View } from "./view.ts";
+
+/** The room (share of the duration) behind the shown tick, if it is not the newest one. */
+const BEHIND = 0.4;
+
+/** The live page: it receives messages and shows them in its panels. */
+export class Page implements Actions {
+  readonly #root: HTMLElement;
+  readonly #controls: Controls;
+  readonly #connection: Connection;
+  readonly #plots = element("div", "plots");
+  #run: Run | undefined;
+  #panels: Panel[] = [];
+  #counterfactual: Counterfactual | undefined;
+  #chart: ChartPanel | undefined;
+  /** The shown tick. The newest one if undefined. */
+  #selected: number | undefined;
+  #duration = 20;
+  #answer: Answer | undefined;
+  #isScheduled = false;
+
+  constructor(root: HTMLElement) {
+    this.#root = root;
+    this.#controls = new Controls(this);
+    root.replaceChildren(this.#controls.element);
+    this.#connection = new Connection(
+      (message) => this.#receive(message),
+      (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second."),
+    );
+    addEventListener("resize", () => this.refresh());
+    addEventListener("keydown", (event) => {
+      const isText = (event.target as Element | null)?.matches("input:not([type=range]), select") ?? false;
+      if (event.key === "u" && !isText && !event.ctrlKey && !event.metaKey && !event.altKey) {
+        this.#chart?.up();
+      }
+    });
+  }
+
+  send(message: PageMessage): void {
+    this.#controls.report("");
+    this.#connection.send(message);
+  }
+
+  select(tick: number | undefined): void {
+    this.#selected = tick;
+    this.refresh();
+  }
+
+  seek(time: number): void {
+    this.select(this.#run?.history.nearest(time)?.tick);
+  }
+
+  zoomTime(duration: number): void {
+    this.#duration = duration;
+    this.refresh();
+  }
+
+  toggleBreakpoint(text: string): void {
+    const isSet = this.#run?.breakpoints.some((breakpoint) => breakpoint.text === text) ?? false;
+    this.send({ type: "break", add: isSet ? null : text, remove: isSet ? text : null });
+  }
+
+  compare(answer: Answer | undefined): void {
+    this.#answer = answer;
+    this.refresh();
+  }
+
+  /** Shows everything before the next picture of the screen. */
+  refresh(): void {
+    if (!this.#isScheduled) {
+      this.#isScheduled = true;
+      requestAnimationFrame(() => {
+        this.#isScheduled = false;
+        this.#show();
+      });
+    }
+  }
+
+  #receive(message: ServerMessage): void {
+    const run = this.#run;
+    if (message.type === "hello") {
+      this.#begin(message);
+    } else if (message.type === "error") {
+      if (!this.#counterfactual?.fault(message)) {
+        this.#controls.report(message.message);
+      }
+    } else if (run !== undefined) {
+      switch (message.type) {
+        case "ticks": run.add(message.frames); break;
+        case "history": run.fill(message.frames); break;
+        case "counterfactual": this.#counterfactual?.receive(message); break;
+        case "status":
+          run.status = message;
+          if (message.state !== "running") {
+            run.expect(message.ticks);
+          }
+          // Where a run stops is what the reader wants to see.
+          if (message.state === "paused" && message.breakpoint !== null) {
+            this.#selected = undefined;
+          }
+      }
+      const range = run.request();
+      if (range !== undefined) {
+        this.#connection.send({ type: "range", from: range[0], to: range[1], most: null });
+      }
+    }
+    this.refresh();
+  }
+
+  /** Shows a new run. */
+  #begin(hello: Hello): void {
+    const run = new Run(hello);
+    [this.#run, this.#selected, this.#answer] = [run, undefined, undefined];
+    this.#chart = new ChartPanel(run, this);
+    this.#counterfactual = new Counterfactual(run, this);
+    const scene = new Scene(run);
+    const guards = new Guards(run, this, (guard) => this.#plotGuard(guard));
+    const figures = new Figures();
+    const breakpoints = new BreakpointList(run, this);
+    this.#panels = [this.#controls, scene, this.#chart, guards, figures, breakpoints, this.#counterfactual];
+    this.#plots.replaceChildren();
+    subjects(run).forEach((subject) => this.#plot(subject));
+    const columns = [
+      element("div", "column", scene.element, figures.element),
+      element("div", "column", this.#chart.element, guards.element, breakpoints.element),
+      element("div", "column", element("section", "", element("h2", "", "Plots"), this.#plots), this.#counterfactual.element),
+    ];
+    this.#root.replaceChildren(this.#controls.element, element("div", "panels", ...columns));
+  }
+
+  #plotGuard(guard: GuardInfo): void {
+    for (const subject of subjectsOf(guard)) {
+      if (!this.#panels.some((panel) => panel instanceof Plot && panel.subject.title === subject.title)) {
+        const plot = this.#plot({ ...subject, close: () => this.#remove(plot) });
+        plot.element.scrollIntoView({ block: "nearest" });
+      }
+    }
+    this.refresh();
+  }
+
+  #plot(subject: Subject): Plot {
+    const plot = new Plot(subject, this);
+    this.#panels.push(plot);
+    this.#plots.append(plot.element);
+    return plot;
+  }
+
+  #remove(plot: Plot): void {
+    this.#panels = this.#panels.filter((panel) => panel !== plot);
+    plot.element.remove();
+  }
+
+  #show(): void {
+    const run = this.#run;
+    if (run === undefined) {
+      return;
+    }
+    const { last } = run.history;
+    const frame = this.#selected === undefined ? last : run.history.at(this.#selected);
+    const [from, to] = this.#range(last?.time ?? 0, frame?.time ?? 0);
+    const view: View = { run, frame, isFollowing: this.#selected === undefined, from, to, answer: this.#answer };
+    this.#panels.forEach((panel) => panel.update(view));
+  }
+
+  /** The times (s) of the plots. */
+  #range(end: number, shown: number): [number, number] {
+    if (this.#duration === Infinity) {
+      return [0, Math.max(end, 1)];
+    }
+    const to = Math.max(this.#duration, Math.min(end, shown + BEHIND * this.#duration));
+    return [to - this.#duration, to];
+  }
+}
