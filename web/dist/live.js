@@ -28,10 +28,11 @@
     element;
     #list = element("ul", "breakpoints");
     #actions;
+    #field = element("input");
     #drawn = "";
     constructor(run, actions) {
       this.#actions = actions;
-      const field = element("input");
+      const field = this.#field;
       field.setAttribute("aria-label", "state or condition of a new breakpoint");
       field.setAttribute("list", "states");
       field.placeholder = "state or condition";
@@ -46,7 +47,6 @@
         const text2 = field.value.trim();
         if (text2 !== "") {
           actions.send({ type: "break", add: text2, remove: null });
-          field.value = "";
         }
       });
       const isPossible = run.hello.capabilities.breakpoints;
@@ -60,6 +60,9 @@
         return;
       }
       this.#drawn = key;
+      if (breakpoints.some(({ text: text2 }) => text2 === this.#field.value.trim())) {
+        this.#field.value = "";
+      }
       const items = breakpoints.map(({ text: text2, state }) => {
         const item = element("li", text2 === hit ? "hit" : "", element("code", "", text2), state === null ? "" : " (state)");
         item.append(" ", button("remove", () => this.#actions.send({ type: "break", add: null, remove: text2 }), `remove the breakpoint ${text2}`));
@@ -102,9 +105,14 @@
     get path() {
       return this.parent === void 0 ? [] : [...this.parent.path, this];
     }
+    /** Its name without that of its outer state, which precedes it in the content of a behaviour. */
+    get shortName() {
+      const prefix = `${this.parent?.name ?? ""}.`;
+      return this.name.startsWith(prefix) ? this.name.slice(prefix.length) : this.name;
+    }
     /** The names of its path. */
     get fullName() {
-      return this.path.map(({ name }) => name).join(" / ");
+      return this.path.map(({ shortName }) => shortName).join(" / ");
     }
     /** This state and all inner states, outer ones first. */
     all() {
@@ -188,7 +196,7 @@
     return { boxes, curves: curves(arrows, places), width, height: y - ROW + HEIGHT + MARGIN };
   }
   function label(item) {
-    return typeof item === "string" ? item : item.children.length > 0 ? `${item.name} ▸` : item.name;
+    return typeof item === "string" ? item : item.children.length > 0 ? `${item.shortName} ▸` : item.shortName;
   }
   function boxWidth(item) {
     return label(item).length * LETTER + 20;
@@ -280,10 +288,9 @@
       this.#path.setAttribute("aria-label", "outer states");
       this.#follow = button("follow", () => this.#setFollowing(!this.#isFollowing), "show the level of the active state");
       this.#follow.setAttribute("aria-pressed", "true");
-      const up = button("up", () => this.#enter(this.#level.parent), "go to the outer state (key U)");
+      const up = button("up", () => this.up(), "go to the outer state (key U)");
       this.#drawing.append(this.#svg);
       this.element = element("section", "statechart", element("div", "head", element("h2", "", "Statechart"), element("div", "tools", up, this.#follow)), this.#path, this.#drawing, this.#list);
-      this.element.addEventListener("keydown", (event) => this.#key(event));
     }
     /** Goes to the outer state of the shown level. */
     up() {
@@ -309,7 +316,7 @@
     #draw(run, width) {
       const arrows = run.chart.arrows(this.#level);
       const layout = layOut(this.#level, arrows, width);
-      const hadFocus = this.#svg.contains(document.activeElement);
+      const focused = [this.#svg, this.#path].find((part) => part.contains(document.activeElement));
       set(this.#svg, { viewBox: `0 0 ${layout.width} ${layout.height}`, width: layout.width, height: layout.height, "aria-label": `states in ${this.#level.name}` });
       this.#boxes.clear();
       this.#arrows.length = 0;
@@ -324,7 +331,7 @@
       const names = [run.chart.root, ...this.#level.path];
       this.#path.replaceChildren(
         ...names.flatMap((node, index) => {
-          const crumb = button(node.name, () => this.#enter(node), `show the states in ${node.name}`);
+          const crumb = button(node.shortName, () => this.#enter(node), `show the states in ${node.name}`);
           if (index === names.length - 1) {
             crumb.setAttribute("aria-current", "true");
           }
@@ -334,8 +341,10 @@
       if (this.#level.behaviour !== void 0) {
         this.#path.append(element("code", "", ` is ${this.#level.behaviour}`));
       }
-      if (hadFocus) {
+      if (focused === this.#svg) {
         this.#boxes.values().next().value?.focus();
+      } else if (focused === this.#path) {
+        this.#path.querySelector("[aria-current]")?.focus();
       }
       this.#marked = "";
     }
@@ -384,7 +393,7 @@
         group.classList.toggle("alternative", others.includes(node.index));
         group.classList.toggle("chosen", node === this.#chosen);
         group.classList.toggle("broken", isBroken);
-        set(group, { "aria-label": `${node.name}${isActive ? ", active" : ""}${isBroken ? ", breakpoint" : ""}${node.children.length > 0 ? `, ${node.children.length} inner states` : ""}`, "aria-pressed": String(node === this.#chosen) });
+        set(group, { "aria-label": `${node.shortName}${isActive ? ", active" : ""}${isBroken ? ", breakpoint" : ""}${node.children.length > 0 ? `, ${node.children.length} inner states` : ""}`, "aria-pressed": String(node === this.#chosen) });
       }
       const seen = this.#chosen ?? active.find((node) => node.parent === this.#level);
       for (const { arrow, path } of this.#arrows) {
@@ -399,7 +408,7 @@
         this.#list.replaceChildren();
         return;
       }
-      const title = element("h3", "", node.name);
+      const title = element("h3", "", node.shortName);
       const tools = element("div", "tools");
       if (node.children.length > 0) {
         tools.append(button("open", () => this.#open(node), `show the states in ${node.name} (key Enter)`));
@@ -411,7 +420,7 @@
       }
       const items = node.transitions.map((transition) => {
         const target = run.chart.target(transition);
-        return element("li", "", element("code", "", transition.text), ` → ${typeof target === "string" ? target : target.name}`);
+        return element("li", "", element("code", "", transition.text), ` → ${typeof target === "string" ? target : target.fullName}`);
       });
       this.#list.replaceChildren(element("div", "head", title, tools), node.behaviour === void 0 ? "" : element("p", "hint", element("code", "", `is ${node.behaviour}`)), element("ul", "", ...items));
     }
@@ -435,13 +444,6 @@
       this.#isFollowing = isFollowing;
       this.#follow.setAttribute("aria-pressed", String(isFollowing));
       this.#actions.refresh();
-    }
-    #key(event) {
-      if (event.key === "u" || event.key === "Backspace") {
-        this.up();
-        event.preventDefault();
-        event.stopPropagation();
-      }
     }
   };
 
@@ -845,7 +847,7 @@
       const width = Math.max(0.7, right - left);
       const bar = svg("rect", { x: left, y: 0, width, height: STRIP, fill: shades.of(span.state) }, svg("title", {}, `${chart.name(span.state)}, ${span.from.toFixed(2)} to ${span.to.toFixed(2)} s`));
       bars.push(bar);
-      const name = chart.nodes[span.state]?.name ?? "ended";
+      const name = chart.nodes[span.state]?.shortName ?? "ended";
       if (name.length * 6 + 6 < width) {
         bars.push(svg("text", { x: left + 3, y: STRIP - 4.5, class: "state" }, name));
       }
@@ -1136,10 +1138,8 @@
         actions.refresh();
       }, "show the guards of all states");
       this.#all.setAttribute("aria-pressed", "false");
-      const headings = ["guard", "distance", "", ""].map((text2) => element("th", text2 === "guard" ? "name" : "", text2));
-      const table = element("table", "", element("thead", "", element("tr", "", ...headings)), element("tbody", "", ...this.#rows.map(({ row }) => row)));
       const head = element("div", "head", element("h2", "", "Guards"), element("div", "tools", this.#all));
-      const content = hello.guards.length > 0 ? element("div", "table", table) : element("p", "hint", hello.no_guards ?? "The policy has no guards.");
+      const content = hello.guards.length > 0 ? element("ul", "", ...this.#rows.map(({ row }) => row)) : element("p", "hint", hello.no_guards ?? "The policy has no guards.");
       this.element = element("section", "guards", head, content);
     }
     update({ run, frame }) {
@@ -1161,7 +1161,7 @@
     }
   };
   function rowOf(run, info, actions, plot) {
-    const distance = element("td", "distance");
+    const distance = element("span", "distance");
     const bar = svg("rect", { height: 10, width: 0 });
     const picture = svg("svg", { class: "bar", width: BAR, height: 10, "aria-hidden": "true" }, svg("rect", { class: "ground", width: BAR, height: 10 }), bar);
     const tools = element("div", "tools");
@@ -1173,9 +1173,10 @@
     if (info.parts.some(({ unit }) => unit !== null)) {
       tools.append(button("plot", () => plot(info), `plot the distance of ${info.text}`));
     }
-    const from = info.state === null ? "every state" : run.chart.nodes[info.state]?.name ?? "";
-    const name = element("td", "name", element("code", "", info.text), element("div", "hint", `${from} → ${info.target}, ${info.file ?? "line"}${info.file === null ? " " : ":"}${info.line}`));
-    return { info, row: element("tr", "", name, distance, element("td", "", picture), element("td", "", tools)), distance, bar, breaks };
+    const from = info.state === null ? "every state" : run.chart.nodes[info.state]?.fullName ?? "";
+    const place = `${from} → ${info.target}, ${info.file === null ? "line " : `${info.file}:`}${info.line}`;
+    const row = element("li", "", element("code", "", info.text), element("span", "hint", place), picture, distance, tools);
+    return { info, row, distance, bar, breaks };
   }
   function describe(info, { met, margins, missing, elapsed, needed }) {
     const lacks = missing.map((part) => {
@@ -1205,7 +1206,7 @@
   var TOP = 2 * STRIP + 8;
   var BOTTOM = 18;
   var LEFT2 = 62;
-  var RIGHT = 6;
+  var RIGHT = 14;
   var Plot = class {
     element;
     subject;
@@ -1280,7 +1281,7 @@
         const x = this.#axis.x(time);
         parts.push(svg("line", { class: "grid", x1: x, x2: x, y1: top, y2: top + HEIGHT2 }), svg("text", { class: "tick", x, y: height - 4, "text-anchor": "middle" }, `${Number(time.toPrecision(6))} s`));
       }
-      for (const value of ticksOf(low, high, 3)) {
+      for (const value of ticksOf(low, high, 4)) {
         parts.push(svg("line", { class: "grid", x1: LEFT2, x2: width - RIGHT, y1: y(value), y2: y(value) }), svg("text", { class: "tick", x: LEFT2 - 4, y: y(value) + 4, "text-anchor": "end" }, quantity(value, this.subject.unit)));
       }
       for (const { name, value } of levels) {
@@ -1631,15 +1632,14 @@
   };
 
   // src/live/world.ts
-  var ROOM = 0.12;
   var World = class {
     #low = [Infinity, Infinity];
     #high = [-Infinity, -Infinity];
     #scale = 1;
     #width = 1;
     #shift = [0, 0];
-    /** Includes a position. True if the drawn part grows. */
-    include([x, y], room = ROOM) {
+    /** Includes a position and the space (m) around it. True if the drawn part grows. */
+    include([x, y], room) {
       if (x - room / 2 >= this.#low[0] && x + room / 2 <= this.#high[0] && y - room / 2 >= this.#low[1] && y + room / 2 <= this.#high[1]) {
         return false;
       }
@@ -1692,6 +1692,8 @@
   var Scene = class {
     element;
     #world = new World();
+    /** The largest distance (m) of a part of the robot from its centre. */
+    #reach;
     #svg = svg("svg", { viewBox: "0 0 100 100" });
     #objects = svg("path", { class: "objects" });
     #trace = svg("path", { class: "trace" });
@@ -1711,6 +1713,8 @@
     #seen = 0;
     constructor(run) {
       const { hello } = run;
+      const { platform, whiskers } = hello.rig;
+      this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length: length2 }) => Math.hypot(x, y) + length2));
       this.#contour = new Dots(this.#world);
       this.#whiskers = hello.whiskers.map((name, index) => svg("path", { class: `whisker s${index % 8}` }, svg("title", {}, name)));
       this.#tips = hello.whiskers.map((_, index) => svg("path", { class: `tip s${index % 8}` }));
@@ -1797,7 +1801,7 @@
           points.push([pose[0], pose[1]]);
         }
       }
-      return points.map((point) => this.#world.include(point)).some((grows) => grows);
+      return points.map((point) => this.#world.include(point, this.#reach)).some((grows) => grows);
     }
     #robot(run, frame) {
       const { rig } = run.hello;
@@ -2007,8 +2011,8 @@
       this.#plots.replaceChildren();
       subjects(run).forEach((subject) => this.#plot(subject));
       const columns = [
-        element("div", "column", scene.element, figures.element),
-        element("div", "column", this.#chart.element, guards.element, breakpoints.element),
+        element("div", "column", scene.element, figures.element, breakpoints.element),
+        element("div", "column", this.#chart.element, guards.element),
         element("div", "column", element("section", "", element("h2", "", "Plots"), this.#plots), this.#counterfactual.element)
       ];
       this.#root.replaceChildren(this.#controls.element, element("div", "panels", ...columns));

@@ -8,11 +8,12 @@ export class BreakpointList implements Panel {
   readonly element: HTMLElement;
   readonly #list = element("ul", "breakpoints");
   readonly #actions: Actions;
+  readonly #field = element("input");
   #drawn = "";
 
   constructor(run: Run, actions: Actions) {
     this.#actions = actions;
-    const field = element("input");
+    const field = this.#field;
     field.setAttribute("aria-label", "state or condition of a new breakpoint");
     field.setAttribute("list", "states");
     field.placeholder = "state or condition";
@@ -27,7 +28,6 @@ export class BreakpointList implements Panel {
       const text = field.value.trim();
       if (text !== "") {
         actions.send({ type: "break", add: text, remove: null });
-        field.value = "";
       }
     });
     const isPossible = run.hello.capabilities.breakpoints;
@@ -42,6 +42,10 @@ export class BreakpointList implements Panel {
       return;
     }
     this.#drawn = key;
+    // A text that cannot be a breakpoint stays in the field.
+    if (breakpoints.some(({ text }) => text === this.#field.value.trim())) {
+      this.#field.value = "";
+    }
     const items = breakpoints.map(({ text, state }) => {
       const item = element("li", text === hit ? "hit" : "", element("code", "", text), state === null ? "" : " (state)");
       item.append(" ", button("remove", () => this.#actions.send({ type: "break", add: null, remove: text }), `remove the breakpoint ${text}`));

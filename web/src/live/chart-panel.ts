@@ -29,10 +29,9 @@ export class ChartPanel implements Panel {
     this.#path.setAttribute("aria-label", "outer states");
     this.#follow = button("follow", () => this.#setFollowing(!this.#isFollowing), "show the level of the active state");
     this.#follow.setAttribute("aria-pressed", "true");
-    const up = button("up", () => this.#enter(this.#level.parent), "go to the outer state (key U)");
+    const up = button("up", () => this.up(), "go to the outer state (key U)");
     this.#drawing.append(this.#svg);
     this.element = element("section", "statechart", element("div", "head", element("h2", "", "Statechart"), element("div", "tools", up, this.#follow)), this.#path, this.#drawing, this.#list);
-    this.element.addEventListener("keydown", (event) => this.#key(event));
   }
 
   /** Goes to the outer state of the shown level. */
@@ -61,7 +60,7 @@ export class ChartPanel implements Panel {
   #draw(run: Run, width: number): void {
     const arrows = run.chart.arrows(this.#level);
     const layout = layOut(this.#level, arrows, width);
-    const hadFocus = this.#svg.contains(document.activeElement);
+    const focused = [this.#svg, this.#path].find((part) => part.contains(document.activeElement));
     set(this.#svg, { viewBox: `0 0 ${layout.width} ${layout.height}`, width: layout.width, height: layout.height, "aria-label": `states in ${this.#level.name}` });
     this.#boxes.clear();
     this.#arrows.length = 0;
@@ -76,7 +75,7 @@ export class ChartPanel implements Panel {
     const names = [run.chart.root, ...this.#level.path];
     this.#path.replaceChildren(
       ...names.flatMap((node, index) => {
-        const crumb = button(node.name, () => this.#enter(node), `show the states in ${node.name}`);
+        const crumb = button(node.shortName, () => this.#enter(node), `show the states in ${node.name}`);
         if (index === names.length - 1) {
           crumb.setAttribute("aria-current", "true");
         }
@@ -86,8 +85,10 @@ export class ChartPanel implements Panel {
     if (this.#level.behaviour !== undefined) {
       this.#path.append(element("code", "", ` is ${this.#level.behaviour}`));
     }
-    if (hadFocus) {
+    if (focused === this.#svg) {
       this.#boxes.values().next().value?.focus();
+    } else if (focused === this.#path) {
+      this.#path.querySelector<HTMLElement>("[aria-current]")?.focus();
     }
     this.#marked = "";
   }
@@ -138,7 +139,7 @@ export class ChartPanel implements Panel {
       group.classList.toggle("alternative", others.includes(node.index));
       group.classList.toggle("chosen", node === this.#chosen);
       group.classList.toggle("broken", isBroken);
-      set(group, { "aria-label": `${node.name}${isActive ? ", active" : ""}${isBroken ? ", breakpoint" : ""}${node.children.length > 0 ? `, ${node.children.length} inner states` : ""}`, "aria-pressed": String(node === this.#chosen) });
+      set(group, { "aria-label": `${node.shortName}${isActive ? ", active" : ""}${isBroken ? ", breakpoint" : ""}${node.children.length > 0 ? `, ${node.children.length} inner states` : ""}`, "aria-pressed": String(node === this.#chosen) });
     }
     const seen = this.#chosen ?? active.find((node) => node.parent === this.#level);
     for (const { arrow, path } of this.#arrows) {
@@ -154,7 +155,7 @@ export class ChartPanel implements Panel {
       this.#list.replaceChildren();
       return;
     }
-    const title = element("h3", "", node.name);
+    const title = element("h3", "", node.shortName);
     const tools = element("div", "tools");
     if (node.children.length > 0) {
       tools.append(button("open", () => this.#open(node), `show the states in ${node.name} (key Enter)`));
@@ -166,7 +167,7 @@ export class ChartPanel implements Panel {
     }
     const items = node.transitions.map((transition) => {
       const target = run.chart.target(transition);
-      return element("li", "", element("code", "", transition.text), ` → ${typeof target === "string" ? target : target.name}`);
+      return element("li", "", element("code", "", transition.text), ` → ${typeof target === "string" ? target : target.fullName}`);
     });
     this.#list.replaceChildren(element("div", "head", title, tools), node.behaviour === undefined ? "" : element("p", "hint", element("code", "", `is ${node.behaviour}`)), element("ul", "", ...items));
   }
@@ -194,13 +195,5 @@ export class ChartPanel implements Panel {
     this.#isFollowing = isFollowing;
     this.#follow.setAttribute("aria-pressed", String(isFollowing));
     this.#actions.refresh();
-  }
-
-  #key(event: KeyboardEvent): void {
-    if (event.key === "u" || event.key === "Backspace") {
-      this.up();
-      event.preventDefault();
-      event.stopPropagation();
-    }
   }
 }

@@ -11,7 +11,7 @@ const BAR = 90;
 
 interface Row {
   info: GuardInfo;
-  row: HTMLTableRowElement;
+  row: HTMLLIElement;
   distance: HTMLElement;
   bar: SVGRectElement;
   breaks: HTMLButtonElement | undefined;
@@ -34,10 +34,8 @@ export class Guards implements Panel {
       actions.refresh();
     }, "show the guards of all states");
     this.#all.setAttribute("aria-pressed", "false");
-    const headings = ["guard", "distance", "", ""].map((text) => element("th", text === "guard" ? "name" : "", text));
-    const table = element("table", "", element("thead", "", element("tr", "", ...headings)), element("tbody", "", ...this.#rows.map(({ row }) => row)));
     const head = element("div", "head", element("h2", "", "Guards"), element("div", "tools", this.#all));
-    const content = hello.guards.length > 0 ? element("div", "table", table) : element("p", "hint", hello.no_guards ?? "The policy has no guards.");
+    const content = hello.guards.length > 0 ? element("ul", "", ...this.#rows.map(({ row }) => row)) : element("p", "hint", hello.no_guards ?? "The policy has no guards.");
     this.element = element("section", "guards", head, content);
   }
 
@@ -61,7 +59,7 @@ export class Guards implements Panel {
 }
 
 function rowOf(run: Run, info: GuardInfo, actions: Actions, plot: (guard: GuardInfo) => void): Row {
-  const distance = element("td", "distance");
+  const distance = element("span", "distance");
   const bar = svg("rect", { height: 10, width: 0 });
   const picture = svg("svg", { class: "bar", width: BAR, height: 10, "aria-hidden": "true" }, svg("rect", { class: "ground", width: BAR, height: 10 }), bar);
   const tools = element("div", "tools");
@@ -73,9 +71,10 @@ function rowOf(run: Run, info: GuardInfo, actions: Actions, plot: (guard: GuardI
   if (info.parts.some(({ unit }) => unit !== null)) {
     tools.append(button("plot", () => plot(info), `plot the distance of ${info.text}`));
   }
-  const from = info.state === null ? "every state" : (run.chart.nodes[info.state]?.name ?? "");
-  const name = element("td", "name", element("code", "", info.text), element("div", "hint", `${from} → ${info.target}, ${info.file ?? "line"}${info.file === null ? " " : ":"}${info.line}`));
-  return { info, row: element("tr", "", name, distance, element("td", "", picture), element("td", "", tools)), distance, bar, breaks };
+  const from = info.state === null ? "every state" : (run.chart.nodes[info.state]?.fullName ?? "");
+  const place = `${from} → ${info.target}, ${info.file === null ? "line " : `${info.file}:`}${info.line}`;
+  const row = element("li", "", element("code", "", info.text), element("span", "hint", place), picture, distance, tools);
+  return { info, row, distance, bar, breaks };
 }
 
 /** What a guard lacks. */

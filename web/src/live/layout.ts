@@ -53,7 +53,7 @@ export function layOut(level: Node, arrows: readonly Arrow[], width: number): La
 
 /** The text of a box. */
 export function label(item: Target): string {
-  return typeof item === "string" ? item : item.children.length > 0 ? `${item.name} ▸` : item.name;
+  return typeof item === "string" ? item : item.children.length > 0 ? `${item.shortName} ▸` : item.shortName;
 }
 
 function boxWidth(item: Target): number {

@@ -135,8 +135,8 @@ export class Page implements Actions {
     this.#plots.replaceChildren();
     subjects(run).forEach((subject) => this.#plot(subject));
     const columns = [
-      element("div", "column", scene.element, figures.element),
-      element("div", "column", this.#chart.element, guards.element, breakpoints.element),
+      element("div", "column", scene.element, figures.element, breakpoints.element),
+      element("div", "column", this.#chart.element, guards.element),
       element("div", "column", element("section", "", element("h2", "", "Plots"), this.#plots), this.#counterfactual.element),
     ];
     this.#root.replaceChildren(this.#controls.element, element("div", "panels", ...columns));

@@ -31,7 +31,7 @@ const HEIGHT = 118;
 const TOP = 2 * STRIP + 8;
 const BOTTOM = 18;
 const LEFT = 62;
-const RIGHT = 6;
+const RIGHT = 14;
 
 /** A plot over time. The strip above it shows the active states, and under them those of a counterfactual. */
 export class Plot implements Panel {
@@ -111,7 +111,7 @@ export class Plot implements Panel {
       const x = this.#axis.x(time);
       parts.push(svg("line", { class: "grid", x1: x, x2: x, y1: top, y2: top + HEIGHT }), svg("text", { class: "tick", x, y: height - 4, "text-anchor": "middle" }, `${Number(time.toPrecision(6))} s`));
     }
-    for (const value of ticksOf(low, high, 3)) {
+    for (const value of ticksOf(low, high, 4)) {
       parts.push(svg("line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y(value), y2: y(value) }), svg("text", { class: "tick", x: LEFT - 4, y: y(value) + 4, "text-anchor": "end" }, quantity(value, this.subject.unit)));
     }
     for (const { name, value } of levels) {

@@ -20,6 +20,8 @@ const AHEAD = 0.8;
 export class Scene implements Panel {
   readonly element: HTMLElement;
   readonly #world = new World();
+  /** The largest distance (m) of a part of the robot from its centre. */
+  readonly #reach: number;
   readonly #svg = svg("svg", { viewBox: "0 0 100 100" });
   readonly #objects = svg("path", { class: "objects" });
   readonly #trace = svg("path", { class: "trace" });
@@ -40,6 +42,8 @@ export class Scene implements Panel {
 
   constructor(run: Run) {
     const { hello } = run;
+    const { platform, whiskers } = hello.rig;
+    this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length }) => Math.hypot(x, y) + length));
     this.#contour = new Dots(this.#world);
     this.#whiskers = hello.whiskers.map((name, index) => svg("path", { class: `whisker s${index % 8}` }, svg("title", {}, name)));
     this.#tips = hello.whiskers.map((_, index) => svg("path", { class: `tip s${index % 8}` }));
@@ -120,7 +124,7 @@ export class Scene implements Panel {
         points.push([pose[0], pose[1]]);
       }
     }
-    return points.map((point) => this.#world.include(point)).some((grows) => grows);
+    return points.map((point) => this.#world.include(point, this.#reach)).some((grows) => grows);
   }
 
   #robot(run: Run, frame: Frame): void {

@@ -24,9 +24,15 @@ export class Node {
     return this.parent === undefined ? [] : [...this.parent.path, this];
   }
 
+  /** Its name without that of its outer state, which precedes it in the content of a behaviour. */
+  get shortName(): string {
+    const prefix = `${this.parent?.name ?? ""}.`;
+    return this.name.startsWith(prefix) ? this.name.slice(prefix.length) : this.name;
+  }
+
   /** The names of its path. */
   get fullName(): string {
-    return this.path.map(({ name }) => name).join(" / ");
+    return this.path.map(({ shortName }) => shortName).join(" / ");
   }
 
   /** This state and all inner states, outer ones first. */

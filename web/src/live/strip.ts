@@ -15,7 +15,7 @@ export function drawStrip(group: SVGGElement, spans: readonly Span[], axis: Time
     const width = Math.max(0.7, right - left);
     const bar = svg("rect", { x: left, y: 0, width, height: STRIP, fill: shades.of(span.state) }, svg("title", {}, `${chart.name(span.state)}, ${span.from.toFixed(2)} to ${span.to.toFixed(2)} s`));
     bars.push(bar);
-    const name = chart.nodes[span.state]?.name ?? "ended";
+    const name = chart.nodes[span.state]?.shortName ?? "ended";
     if (name.length * 6 + 6 < width) {
       bars.push(svg("text", { x: left + 3, y: STRIP - 4.5, class: "state" }, name));
     }

@@ -1,8 +1,5 @@
 import type { Point, Pose } from "./protocol.ts";
 
-/** The free space (m) around everything that is drawn. */
-const ROOM = 0.12;
-
 /** The drawn part of the world and its scale. The second axis of the world points up. */
 export class World {
   #low: [number, number] = [Infinity, Infinity];
@@ -11,8 +8,8 @@ export class World {
   #width = 1;
   #shift: [number, number] = [0, 0];
 
-  /** Includes a position. True if the drawn part grows. */
-  include([x, y]: Readonly<Point>, room = ROOM): boolean {
+  /** Includes a position and the space (m) around it. True if the drawn part grows. */
+  include([x, y]: Readonly<Point>, room: number): boolean {
     if (x - room / 2 >= this.#low[0] && x + room / 2 <= this.#high[0] && y - room / 2 >= this.#low[1] && y + room / 2 <= this.#high[1]) {
       return false;
     }
