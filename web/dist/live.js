@@ -480,6 +480,7 @@
   var Controls = class {
     element;
     #actions;
+    #up;
     #title = element("h1", "", "vibrissa");
     #status = element("p", "status");
     #fault = element("p", "fault");
@@ -489,9 +490,11 @@
     #newest;
     #slider = element("input", "slider");
     #time = element("output", "time");
+    #gaps = element("p", "hint");
     #view;
-    constructor(actions) {
-      this.#actions = actions;
+    /** `up` goes to the outer state in the chart. */
+    constructor(actions, up) {
+      [this.#actions, this.#up] = [actions, up];
       this.#pause = button("pause", () => this.#toggle(), "pause or continue the run (key P)");
       this.#step = button("step", () => this.#advance(1), "execute one tick (key S)");
       this.#steps = button("30 ticks", () => this.#advance(30), "execute 30 ticks (key Shift S)");
@@ -513,7 +516,7 @@
       const before = button("◂◂", () => this.#change(-1), "to the change of state before (key [)");
       const after = button("▸▸", () => this.#change(1), "to the next change of state (key ])");
       const tools = element("div", "tools", this.#pause, this.#step, this.#steps, before, back, on, after, this.#newest, duration);
-      this.element = element("header", "controls", element("div", "title", this.#title, this.#status), tools, element("div", "history", this.#slider, this.#time), this.#fault, element("p", "hint keys", KEYS));
+      this.element = element("header", "controls", element("div", "title", this.#title, this.#status), tools, element("div", "history", this.#slider, this.#time), this.#gaps, this.#fault, element("p", "hint keys", KEYS));
       addEventListener("keydown", (event) => this.#key(event));
     }
     /** Shows a message about a request, or about the connection. */
@@ -544,6 +547,9 @@
       const place = frame === void 0 ? "" : `${frame.time.toFixed(2)} s, tick ${frame.tick}`;
       this.#time.textContent = place;
       this.#slider.setAttribute("aria-valuetext", place);
+      const kept = status === void 0 || status.kept_every <= 1 ? "" : `Of the older ticks, the program keeps one in ${status.kept_every}.`;
+      const lost = run.lost === 0 ? "" : `This page was too slow for ${run.lost} ticks, and asked for them later.`;
+      this.#gaps.textContent = `${kept} ${lost}`.trim();
     }
     #toggle() {
       const status = this.#view?.run.status;
@@ -578,13 +584,14 @@
     }
     #key(event) {
       const target = event.target;
-      if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range]), select, textarea")) {
+      if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range], [type=radio]), select")) {
         return;
       }
       const actions = {
         p: () => this.#toggle(),
         s: () => this.#advance(1),
         S: () => this.#advance(30),
+        u: this.#up,
         l: () => this.#actions.select(void 0),
         ",": () => this.#move(-1),
         ".": () => this.#move(1),
@@ -945,7 +952,7 @@
         this.#ask();
       }, "begin the change at the shown tick");
       const tools = element("div", "tools", from, button("reset", () => this.#reset(), "restore all values of the run"));
-      const heading = element("div", "head", element("h2", "", "What if"), tools);
+      const heading = element("div", "head", element("h2", "", "Counterfactual"), tools);
       this.#svg.append(...this.#strips, this.#cursor);
       set(this.#strips[1] ?? this.#svg, { transform: `translate(0 ${STRIP + 4})` });
       this.#svg.addEventListener("click", (event) => this.#seek(event));
@@ -953,7 +960,7 @@
       this.#result.hidden = true;
       this.#summary.setAttribute("aria-live", "polite");
       const isPossible = (capabilities.counterfactual || capabilities.closed_loop) && parameters.length > 0;
-      this.element = element("section", "counterfactual", ...isPossible ? [heading, element("div", "kinds", recordedLabel, closedLabel, this.#start), this.#result, this.#table()] : [element("h2", "", "What if"), element("p", "hint", "Nothing can be changed in this run.")]);
+      this.element = element("section", "counterfactual", ...isPossible ? [heading, element("div", "kinds", recordedLabel, closedLabel, this.#start), this.#result, this.#table()] : [element("h2", "", "Counterfactual"), element("p", "hint", "Nothing can be changed in this run.")]);
     }
     receive(piece) {
       if (piece.id === this.#answer?.id) {
@@ -1401,6 +1408,8 @@
     shades;
     history = new History();
     status;
+    /** The number of ticks that the page was too slow for. It asks for them later. */
+    lost = 0;
     #missing = [];
     #largest = /* @__PURE__ */ new Map();
     #requested;
@@ -1859,7 +1868,8 @@
     const angles = {
       title: "Base angles",
       unit: "rad",
-      series: hello.whiskers.map((name, index) => ({ name, value: ({ whiskers }) => whiskers[index]?.base_angle }))
+      series: hello.whiskers.map((name, index) => ({ name, value: ({ whiskers }) => whiskers[index]?.base_angle })),
+      levels: [...new Set(hello.rig.whiskers.map(({ threshold }) => threshold))].flatMap((value) => [{ name: "contact", value }, { name: "contact", value: -value }])
     };
     const loop = {
       title: "Control loop",
@@ -1898,6 +1908,7 @@
   }
 
   // src/live/page.ts
+  var PAUSE3 = 50;
   var BEHIND = 0.4;
   var Page = class {
     #root;
@@ -1913,21 +1924,17 @@
     #duration = 20;
     #answer;
     #isScheduled = false;
+    #timer;
+    #shownAt = 0;
     constructor(root2) {
       this.#root = root2;
-      this.#controls = new Controls(this);
+      this.#controls = new Controls(this, () => this.#chart?.up());
       root2.replaceChildren(this.#controls.element);
       this.#connection = new Connection(
         (message) => this.#receive(message),
         (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second.")
       );
       addEventListener("resize", () => this.refresh());
-      addEventListener("keydown", (event) => {
-        const isText = event.target?.matches("input:not([type=range]), select") ?? false;
-        if (event.key === "u" && !isText && !event.ctrlKey && !event.metaKey && !event.altKey) {
-          this.#chart?.up();
-        }
-      });
     }
     send(message) {
       this.#controls.report("");
@@ -1958,6 +1965,7 @@
         this.#isScheduled = true;
         requestAnimationFrame(() => {
           this.#isScheduled = false;
+          this.#shownAt = performance.now();
           this.#show();
         });
       }
@@ -1974,6 +1982,7 @@
         switch (message.type) {
           case "ticks":
             run.add(message.frames);
+            run.lost += message.lost;
             break;
           case "history":
             run.fill(message.frames);
@@ -1995,7 +2004,18 @@
           this.#connection.send({ type: "range", from: range[0], to: range[1], most: null });
         }
       }
-      this.refresh();
+      if (message.type === "ticks" || message.type === "history") {
+        this.#refreshSoon();
+      } else {
+        this.refresh();
+      }
+    }
+    /** Shows new ticks, but not each one by itself. */
+    #refreshSoon() {
+      this.#timer ??= setTimeout(() => {
+        this.#timer = void 0;
+        this.refresh();
+      }, Math.max(0, this.#shownAt + PAUSE3 - performance.now()));
     }
     /** Shows a new run. */
     #begin(hello) {

@@ -12,6 +12,7 @@ const KEYS = "P pause or run · S step · L newest tick · , and . one tick · [
 export class Controls implements Panel {
   readonly element: HTMLElement;
   readonly #actions: Actions;
+  readonly #up: () => void;
   readonly #title = element("h1", "", "vibrissa");
   readonly #status = element("p", "status");
   readonly #fault = element("p", "fault");
@@ -21,10 +22,12 @@ export class Controls implements Panel {
   readonly #newest: HTMLButtonElement;
   readonly #slider = element("input", "slider");
   readonly #time = element("output", "time");
+  readonly #gaps = element("p", "hint");
   #view: View | undefined;
 
-  constructor(actions: Actions) {
-    this.#actions = actions;
+  /** `up` goes to the outer state in the chart. */
+  constructor(actions: Actions, up: () => void) {
+    [this.#actions, this.#up] = [actions, up];
     this.#pause = button("pause", () => this.#toggle(), "pause or continue the run (key P)");
     this.#step = button("step", () => this.#advance(1), "execute one tick (key S)");
     this.#steps = button("30 ticks", () => this.#advance(30), "execute 30 ticks (key Shift S)");
@@ -46,7 +49,7 @@ export class Controls implements Panel {
     const before = button("◂◂", () => this.#change(-1), "to the change of state before (key [)");
     const after = button("▸▸", () => this.#change(1), "to the next change of state (key ])");
     const tools = element("div", "tools", this.#pause, this.#step, this.#steps, before, back, on, after, this.#newest, duration);
-    this.element = element("header", "controls", element("div", "title", this.#title, this.#status), tools, element("div", "history", this.#slider, this.#time), this.#fault, element("p", "hint keys", KEYS));
+    this.element = element("header", "controls", element("div", "title", this.#title, this.#status), tools, element("div", "history", this.#slider, this.#time), this.#gaps, this.#fault, element("p", "hint keys", KEYS));
     addEventListener("keydown", (event) => this.#key(event));
   }
 
@@ -79,6 +82,9 @@ export class Controls implements Panel {
     const place = frame === undefined ? "" : `${frame.time.toFixed(2)} s, tick ${frame.tick}`;
     this.#time.textContent = place;
     this.#slider.setAttribute("aria-valuetext", place);
+    const kept = status === undefined || status.kept_every <= 1 ? "" : `Of the older ticks, the program keeps one in ${status.kept_every}.`;
+    const lost = run.lost === 0 ? "" : `This page was too slow for ${run.lost} ticks, and asked for them later.`;
+    this.#gaps.textContent = `${kept} ${lost}`.trim();
   }
 
   #toggle(): void {
@@ -118,13 +124,14 @@ export class Controls implements Panel {
 
   #key(event: KeyboardEvent): void {
     const target = event.target as Element | null;
-    if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range]), select, textarea")) {
+    if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range], [type=radio]), select")) {
       return;
     }
     const actions: Record<string, () => void> = {
       p: () => this.#toggle(),
       s: () => this.#advance(1),
       S: () => this.#advance(30),
+      u: this.#up,
       l: () => this.#actions.select(undefined),
       ",": () => this.#move(-1),
       ".": () => this.#move(1),

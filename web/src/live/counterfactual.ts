@@ -60,7 +60,7 @@ export class Counterfactual implements Panel {
       this.#ask();
     }, "begin the change at the shown tick");
     const tools = element("div", "tools", from, button("reset", () => this.#reset(), "restore all values of the run"));
-    const heading = element("div", "head", element("h2", "", "What if"), tools);
+    const heading = element("div", "head", element("h2", "", "Counterfactual"), tools);
     this.#svg.append(...this.#strips, this.#cursor);
     set(this.#strips[1] ?? this.#svg, { transform: `translate(0 ${STRIP + 4})` });
     this.#svg.addEventListener("click", (event) => this.#seek(event));
@@ -68,7 +68,7 @@ export class Counterfactual implements Panel {
     this.#result.hidden = true;
     this.#summary.setAttribute("aria-live", "polite");
     const isPossible = (capabilities.counterfactual || capabilities.closed_loop) && parameters.length > 0;
-    this.element = element("section", "counterfactual", ...(isPossible ? [heading, element("div", "kinds", recordedLabel, closedLabel, this.#start), this.#result, this.#table()] : [element("h2", "", "What if"), element("p", "hint", "Nothing can be changed in this run.")]));
+    this.element = element("section", "counterfactual", ...(isPossible ? [heading, element("div", "kinds", recordedLabel, closedLabel, this.#start), this.#result, this.#table()] : [element("h2", "", "Counterfactual"), element("p", "hint", "Nothing can be changed in this run.")]));
   }
 
   receive(piece: Piece): void {

@@ -14,6 +14,8 @@ import { Scene } from "./scene.ts";
 import { subjectsOf, subjects } from "./subjects.ts";
 import type { Actions, Panel, View } from "./view.ts";
 
+/** The least time (ms) between two pictures of new ticks. */
+const PAUSE = 50;
 /** The room (share of the duration) behind the shown tick, if it is not the newest one. */
 const BEHIND = 0.4;
 
@@ -32,22 +34,18 @@ export class Page implements Actions {
   #duration = 20;
   #answer: Answer | undefined;
   #isScheduled = false;
+  #timer: number | undefined;
+  #shownAt = 0;
 
   constructor(root: HTMLElement) {
     this.#root = root;
-    this.#controls = new Controls(this);
+    this.#controls = new Controls(this, () => this.#chart?.up());
     root.replaceChildren(this.#controls.element);
     this.#connection = new Connection(
       (message) => this.#receive(message),
       (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second."),
     );
     addEventListener("resize", () => this.refresh());
-    addEventListener("keydown", (event) => {
-      const isText = (event.target as Element | null)?.matches("input:not([type=range]), select") ?? false;
-      if (event.key === "u" && !isText && !event.ctrlKey && !event.metaKey && !event.altKey) {
-        this.#chart?.up();
-      }
-    });
   }
 
   send(message: PageMessage): void {
@@ -85,6 +83,7 @@ export class Page implements Actions {
       this.#isScheduled = true;
       requestAnimationFrame(() => {
         this.#isScheduled = false;
+        this.#shownAt = performance.now();
         this.#show();
       });
     }
@@ -100,7 +99,10 @@ export class Page implements Actions {
       }
     } else if (run !== undefined) {
       switch (message.type) {
-        case "ticks": run.add(message.frames); break;
+        case "ticks":
+          run.add(message.frames);
+          run.lost += message.lost;
+          break;
         case "history": run.fill(message.frames); break;
         case "counterfactual": this.#counterfactual?.receive(message); break;
         case "status":
@@ -118,7 +120,19 @@ export class Page implements Actions {
         this.#connection.send({ type: "range", from: range[0], to: range[1], most: null });
       }
     }
-    this.refresh();
+    if (message.type === "ticks" || message.type === "history") {
+      this.#refreshSoon();
+    } else {
+      this.refresh();
+    }
+  }
+
+  /** Shows new ticks, but not each one by itself. */
+  #refreshSoon(): void {
+    this.#timer ??= setTimeout(() => {
+      this.#timer = undefined;
+      this.refresh();
+    }, Math.max(0, this.#shownAt + PAUSE - performance.now()));
   }
 
   /** Shows a new run. */

@@ -16,6 +16,8 @@ export class Run {
   readonly shades: Shades;
   readonly history = new History();
   status: Status | undefined;
+  /** The number of ticks that the page was too slow for. It asks for them later. */
+  lost = 0;
   readonly #missing: Range[] = [];
   readonly #largest = new Map<string, number>();
   #requested: Range | undefined;

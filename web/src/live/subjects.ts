@@ -8,6 +8,7 @@ export function subjects({ hello }: Run): Subject[] {
     title: "Base angles",
     unit: "rad",
     series: hello.whiskers.map((name, index) => ({ name, value: ({ whiskers }) => whiskers[index]?.base_angle })),
+    levels: [...new Set(hello.rig.whiskers.map(({ threshold }) => threshold))].flatMap((value) => [{ name: "contact", value }, { name: "contact", value: -value }]),
   };
   const loop: Subject = {
     title: "Control loop",
