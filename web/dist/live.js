@@ -644,13 +644,10 @@
     }
     /** Removes every second one of the older ticks. The next one gets their recorded tips. */
     #thin() {
-      const old = this.#frames.length / 2;
+      const isRemoved = (index) => index < this.#frames.length / 2 && index % 2 === 1;
       this.#frames = this.#frames.flatMap((frame, index, frames) => {
-        const before = frames[index - 1];
-        if (index < old && index % 2 === 1) {
-          return [];
-        }
-        return index <= old && index > 0 && before !== void 0 ? [{ ...frame, contour: [...before.contour, ...frame.contour] }] : [frame];
+        const before = isRemoved(index - 1) ? frames[index - 1] : void 0;
+        return isRemoved(index) ? [] : [before === void 0 ? frame : { ...frame, contour: [...before.contour, ...frame.contour] }];
       });
       this.#spans = void 0;
     }

@@ -68,13 +68,14 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     run(&web, "node", &["test/live.mjs", &program])
 }
 
-/// Installs the pinned tools and checks the types.
+/// Installs the pinned tools, checks the types, and tests the parts that need no browser.
 fn prepare(web: &Path) -> Result<(), WebError> {
     if Command::new("npm").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err() {
         return Err(WebError::NoNpm);
     }
     run(web, "npm", &["ci", "--silent", "--no-audit", "--no-fund"])?;
-    run(web, "npm", &["run", "--silent", "check"])
+    run(web, "npm", &["run", "--silent", "check"])?;
+    run(web, "npm", &["run", "--silent", "test"])
 }
 
 fn run(web: &Path, program: &str, arguments: &[&str]) -> Result<(), WebError> {

@@ -44,13 +44,10 @@ export class History {
 
   /** Removes every second one of the older ticks. The next one gets their recorded tips. */
   #thin(): void {
-    const old = this.#frames.length / 2;
+    const isRemoved = (index: number): boolean => index < this.#frames.length / 2 && index % 2 === 1;
     this.#frames = this.#frames.flatMap((frame, index, frames) => {
-      const before = frames[index - 1];
-      if (index < old && index % 2 === 1) {
-        return [];
-      }
-      return index <= old && index > 0 && before !== undefined ? [{ ...frame, contour: [...before.contour, ...frame.contour] }] : [frame];
+      const before = isRemoved(index - 1) ? frames[index - 1] : undefined;
+      return isRemoved(index) ? [] : [before === undefined ? frame : { ...frame, contour: [...before.contour, ...frame.contour] }];
     });
     this.#spans = undefined;
   }
