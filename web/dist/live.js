@@ -1044,7 +1044,8 @@
       const x = axis.x(Math.max(axis.from, Math.min(axis.to, this.#shown.time)));
       set(this.#cursor, { x1: x, x2: x });
       const unit = (name) => hello.parameters.find((info) => info.name === name)?.unit ?? "";
-      this.#values.textContent = Object.entries(answer.set).map(([name, value]) => `${name} = ${quantity(value, unit(name))}`).join(", ");
+      const values = Object.entries(answer.set).map(([name, value]) => `${name} = ${quantity(value, unit(name))}`);
+      this.#values.textContent = `${answer.kind === "recorded" ? "Recorded samples" : "Closed loop"}, ${values.join(", ")}`;
       const text2 = summary(answer);
       if (this.#summary.textContent !== text2) {
         this.#summary.textContent = text2;
@@ -1149,7 +1150,7 @@
     update({ run, frame }) {
       const tried = new Map(frame?.guards.map((guard) => [guard.guard, guard]));
       const breaks = new Set(run.breakpoints.map(({ text: text2 }) => text2));
-      for (const { info, row, distance, bar, breaks: toggle } of this.#rows) {
+      for (const { info, row, distance, bar, breaks: toggle, breakpoint } of this.#rows) {
         const now = tried.get(info.index);
         row.hidden = now === void 0 && !this.#showsAll;
         if (row.hidden) {
@@ -1160,7 +1161,7 @@
         row.classList.toggle("met", now?.met ?? false);
         row.classList.toggle("fired", frame?.taken.includes(info.index) ?? false);
         set(bar, { width: now === void 0 ? 0 : BAR * closeness(run, now) });
-        toggle?.setAttribute("aria-pressed", String(breaks.has(info.text)));
+        toggle?.setAttribute("aria-pressed", String(breaks.has(breakpoint)));
       }
     }
   };
@@ -1170,17 +1171,20 @@
     const picture = svg("svg", { class: "bar", width: BAR, height: 10, "aria-hidden": "true" }, svg("rect", { class: "ground", width: BAR, height: 10 }), bar);
     const tools = element("div", "tools");
     let breaks;
-    if (run.hello.capabilities.breakpoints && info.parts.length > 0) {
-      breaks = button("break", () => actions.toggleBreakpoint(info.text), `pause when ${info.text} holds`);
+    const state = info.state === null ? void 0 : run.chart.nodes[info.state];
+    const breakpoint = state === void 0 ? info.text : `${state.name}: ${info.text}`;
+    if (run.hello.capabilities.breakpoints) {
+      const description = state === void 0 ? `pause when ${info.text} holds` : `pause when ${info.text} leaves ${state.fullName}`;
+      breaks = button("break", () => actions.toggleBreakpoint(breakpoint), description);
       tools.append(breaks);
     }
     if (info.parts.some(({ unit }) => unit !== null)) {
       tools.append(button("plot", () => plot(info), `plot the distance of ${info.text}`));
     }
-    const from = info.state === null ? "every state" : run.chart.nodes[info.state]?.fullName ?? "";
+    const from = state?.fullName ?? "every state";
     const place = `${from} → ${info.target}, ${info.file === null ? "line " : `${info.file}:`}${info.line}`;
     const row = element("li", "", element("code", "", info.text), element("span", "hint", place), picture, distance, tools);
-    return { info, row, distance, bar, breaks };
+    return { info, row, distance, bar, breaks, breakpoint };
   }
   function describe(info, { met, margins, missing, elapsed, needed }) {
     const lacks = missing.map((part) => {
@@ -1978,8 +1982,8 @@
       } else if (run !== void 0) {
         switch (message.type) {
           case "ticks":
+            run.lost += run.history.last === void 0 ? 0 : message.lost;
             run.add(message.frames);
-            run.lost += message.lost;
             break;
           case "history":
             run.fill(message.frames);

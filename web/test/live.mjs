@@ -124,6 +124,14 @@ await serve(run, async (address) => {
     await page.keyboard.press("Enter");
     await page.waitForFunction((plots) => document.querySelectorAll(".plot").length > plots, plots);
 
+    // A guard has a breakpoint.
+    await tabTo(page, ".guards button[aria-label^='pause when']");
+    const count = (await page.$$(".breakpoints li")).length;
+    for (const change of [1, 0]) {
+      await page.keyboard.press("Enter");
+      await page.waitForFunction((count) => document.querySelectorAll(".breakpoints li").length === count, count + change);
+    }
+
     // A condition becomes a breakpoint. One that cannot be read is explained.
     await tabTo(page, ".add input");
     await page.keyboard.type("no_such_thing > 1");
@@ -140,14 +148,14 @@ await serve(run, async (address) => {
     await page.waitForFunction(() => !document.querySelector(".breakpoints").textContent.includes("Swiping"));
 
     // A changed parameter shows another run beside this one, in both kinds.
-    for (const kind of ["recorded", "closed_loop"]) {
+    for (const [kind, name] of [["recorded", "Recorded samples"], ["closed_loop", "Closed loop"]]) {
       await tabTo(page, ".kinds input");
       if ((await page.evaluate(() => document.activeElement.value)) !== kind) {
         await page.keyboard.press("ArrowDown");
       }
       await tabTo(page, ".fields input[type='number']");
       await page.keyboard.press("ArrowUp");
-      await page.waitForFunction(() => /End at/.test(document.querySelector(".summary")?.textContent));
+      await page.waitForFunction((name) => document.querySelector(".result .hint").textContent.startsWith(name) && /End at/.test(document.querySelector(".summary").textContent), name);
       assert.ok((await page.$$(".result .strip rect")).length > 1);
     }
   });

@@ -163,7 +163,8 @@ export class Counterfactual implements Panel {
     const x = axis.x(Math.max(axis.from, Math.min(axis.to, this.#shown.time)));
     set(this.#cursor, { x1: x, x2: x });
     const unit = (name: string): string => hello.parameters.find((info) => info.name === name)?.unit ?? "";
-    this.#values.textContent = Object.entries(answer.set).map(([name, value]) => `${name} = ${quantity(value, unit(name))}`).join(", ");
+    const values = Object.entries(answer.set).map(([name, value]) => `${name} = ${quantity(value, unit(name))}`);
+    this.#values.textContent = `${answer.kind === "recorded" ? "Recorded samples" : "Closed loop"}, ${values.join(", ")}`;
     const text = summary(answer);
     if (this.#summary.textContent !== text) {
       this.#summary.textContent = text;

@@ -15,6 +15,8 @@ interface Row {
   distance: HTMLElement;
   bar: SVGRectElement;
   breaks: HTMLButtonElement | undefined;
+  /** The text of its breakpoint. */
+  breakpoint: string;
 }
 
 /** The guards with their distances from being enabled. */
@@ -42,7 +44,7 @@ export class Guards implements Panel {
   update({ run, frame }: View): void {
     const tried = new Map(frame?.guards.map((guard) => [guard.guard, guard]));
     const breaks = new Set((run.breakpoints).map(({ text }) => text));
-    for (const { info, row, distance, bar, breaks: toggle } of this.#rows) {
+    for (const { info, row, distance, bar, breaks: toggle, breakpoint } of this.#rows) {
       const now = tried.get(info.index);
       row.hidden = now === undefined && !this.#showsAll;
       if (row.hidden) {
@@ -53,7 +55,7 @@ export class Guards implements Panel {
       row.classList.toggle("met", now?.met ?? false);
       row.classList.toggle("fired", frame?.taken.includes(info.index) ?? false);
       set(bar, { width: now === undefined ? 0 : BAR * closeness(run, now) });
-      toggle?.setAttribute("aria-pressed", String(breaks.has(info.text)));
+      toggle?.setAttribute("aria-pressed", String(breaks.has(breakpoint)));
     }
   }
 }
@@ -64,17 +66,20 @@ function rowOf(run: Run, info: GuardInfo, actions: Actions, plot: (guard: GuardI
   const picture = svg("svg", { class: "bar", width: BAR, height: 10, "aria-hidden": "true" }, svg("rect", { class: "ground", width: BAR, height: 10 }), bar);
   const tools = element("div", "tools");
   let breaks: HTMLButtonElement | undefined;
-  if (run.hello.capabilities.breakpoints && info.parts.length > 0) {
-    breaks = button("break", () => actions.toggleBreakpoint(info.text), `pause when ${info.text} holds`);
+  const state = info.state === null ? undefined : run.chart.nodes[info.state];
+  const breakpoint = state === undefined ? info.text : `${state.name}: ${info.text}`;
+  if (run.hello.capabilities.breakpoints) {
+    const description = state === undefined ? `pause when ${info.text} holds` : `pause when ${info.text} leaves ${state.fullName}`;
+    breaks = button("break", () => actions.toggleBreakpoint(breakpoint), description);
     tools.append(breaks);
   }
   if (info.parts.some(({ unit }) => unit !== null)) {
     tools.append(button("plot", () => plot(info), `plot the distance of ${info.text}`));
   }
-  const from = info.state === null ? "every state" : (run.chart.nodes[info.state]?.fullName ?? "");
+  const from = state?.fullName ?? "every state";
   const place = `${from} → ${info.target}, ${info.file === null ? "line " : `${info.file}:`}${info.line}`;
   const row = element("li", "", element("code", "", info.text), element("span", "hint", place), picture, distance, tools);
-  return { info, row, distance, bar, breaks };
+  return { info, row, distance, bar, breaks, breakpoint };
 }
 
 /** What a guard lacks. */

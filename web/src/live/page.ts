@@ -100,8 +100,9 @@ export class Page implements Actions {
     } else if (run !== undefined) {
       switch (message.type) {
         case "ticks":
+          // What a page has missed before it was opened was not lost.
+          run.lost += run.history.last === undefined ? 0 : message.lost;
           run.add(message.frames);
-          run.lost += message.lost;
           break;
         case "history": run.fill(message.frames); break;
         case "counterfactual": this.#counterfactual?.receive(message); break;
