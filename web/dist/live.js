@@ -1152,15 +1152,16 @@
       const breaks = new Set(run.breakpoints.map(({ text: text2 }) => text2));
       for (const { info, row, distance, bar, breaks: toggle, breakpoint } of this.#rows) {
         const now = tried.get(info.index);
-        row.hidden = now === void 0 && !this.#showsAll;
+        const isTaken = frame?.taken.includes(info.index) ?? false;
+        row.hidden = now === void 0 && !isTaken && !this.#showsAll;
         if (row.hidden) {
           continue;
         }
-        distance.textContent = now === void 0 ? "not evaluated" : describe(info, now);
-        row.classList.toggle("idle", now === void 0);
+        distance.textContent = isTaken ? "taken" : now === void 0 ? "not evaluated" : describe(info, now);
+        row.classList.toggle("idle", now === void 0 && !isTaken);
         row.classList.toggle("met", now?.met ?? false);
-        row.classList.toggle("fired", frame?.taken.includes(info.index) ?? false);
-        set(bar, { width: now === void 0 ? 0 : BAR * closeness(run, now) });
+        row.classList.toggle("taken", isTaken);
+        set(bar, { width: isTaken ? BAR : now === void 0 ? 0 : BAR * closeness(run, now) });
         toggle?.setAttribute("aria-pressed", String(breaks.has(breakpoint)));
       }
     }

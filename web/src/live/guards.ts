@@ -46,15 +46,16 @@ export class Guards implements Panel {
     const breaks = new Set((run.breakpoints).map(({ text }) => text));
     for (const { info, row, distance, bar, breaks: toggle, breakpoint } of this.#rows) {
       const now = tried.get(info.index);
-      row.hidden = now === undefined && !this.#showsAll;
+      const isTaken = frame?.taken.includes(info.index) ?? false;
+      row.hidden = now === undefined && !isTaken && !this.#showsAll;
       if (row.hidden) {
         continue;
       }
-      distance.textContent = now === undefined ? "not evaluated" : describe(info, now);
-      row.classList.toggle("idle", now === undefined);
+      distance.textContent = isTaken ? "taken" : now === undefined ? "not evaluated" : describe(info, now);
+      row.classList.toggle("idle", now === undefined && !isTaken);
       row.classList.toggle("met", now?.met ?? false);
-      row.classList.toggle("fired", frame?.taken.includes(info.index) ?? false);
-      set(bar, { width: now === undefined ? 0 : BAR * closeness(run, now) });
+      row.classList.toggle("taken", isTaken);
+      set(bar, { width: isTaken ? BAR : now === undefined ? 0 : BAR * closeness(run, now) });
       toggle?.setAttribute("aria-pressed", String(breaks.has(breakpoint)));
     }
   }
