@@ -1602,10 +1602,11 @@
     }
   };
 
-  // src/live/dots.ts
+  // src/live/track.ts
   var PART = 300;
   var WRONG = 1e-3;
-  var Dots = class {
+  var STEP = 4e-3;
+  var Track = class {
     group = svg("g");
     #world;
     #parts = [];
@@ -1617,30 +1618,43 @@
       this.#parts = [];
       this.group.replaceChildren();
     }
-    /** Draws the tips until a tick. */
+    /** Draws the past until a tick. */
     show(frames, tick) {
       const count = Math.ceil(frames.length / PART);
-      for (let part = 0; part < Math.max(count, this.#parts.length); part += 1) {
-        const ticks = frames.slice(part * PART, (part + 1) * PART);
+      for (let index = 0; index < Math.max(count, this.#parts.length); index += 1) {
+        const ticks = frames.slice(index * PART, (index + 1) * PART + 1);
         const [first, last] = [ticks[0], ticks.at(-1)];
-        const isPartial = first !== void 0 && last !== void 0 && last.tick > tick;
         const key = first === void 0 || last === void 0 ? "" : `${first.tick} ${Math.max(first.tick - 1, Math.min(last.tick, tick))} ${ticks.length}`;
-        const drawn = this.#parts[part] ??= this.#added();
-        if (drawn.key === key) {
-          continue;
+        const part = this.#parts[index] ??= this.#added();
+        if (part.key !== key) {
+          part.key = key;
+          this.#draw(part, ticks.filter((frame) => frame.tick <= tick));
         }
-        drawn.key = key;
-        const tips = (isPartial ? ticks.filter((frame) => frame.tick <= tick) : ticks).flatMap(({ contour }) => contour);
-        const points = (isWrong) => tips.filter(({ error }) => (error !== null && error > WRONG) === isWrong).map(({ point }) => point);
-        drawn.paths.forEach((path, index) => set(path, { d: this.#world.dots(points(index === 1)) }));
       }
     }
+    #draw({ path, contour, wrong }, ticks) {
+      const tips = ticks.slice(0, PART).flatMap(({ contour: contour2 }) => contour2);
+      const points = (isWrong) => tips.filter(({ error }) => (error !== null && error > WRONG) === isWrong).map(({ point }) => point);
+      set(path, { d: this.#world.line(thinned(ticks.map(({ pose }) => pose))) });
+      set(contour, { d: this.#world.dots(points(false)) });
+      set(wrong, { d: this.#world.dots(points(true)) });
+    }
     #added() {
-      const paths = ["contour", "contour wrong"].map((name) => svg("path", { class: name }));
-      this.group.append(...paths);
-      return { key: "", paths };
+      const [path, contour, wrong] = [svg("path", { class: "trace" }), svg("path", { class: "contour" }), svg("path", { class: "contour wrong" })];
+      this.group.append(path, contour, wrong);
+      return { key: "", path, contour, wrong };
     }
   };
+  function thinned(poses) {
+    const points = [];
+    poses.forEach(([x, y], index) => {
+      const last = points.at(-1);
+      if (last === void 0 || index === poses.length - 1 || Math.hypot(x - last[0], y - last[1]) > STEP) {
+        points.push([x, y]);
+      }
+    });
+    return points;
+  }
 
   // src/live/world.ts
   var World = class {
@@ -1698,7 +1712,6 @@
 
   // src/live/scene.ts
   var CLOSE = 0.45;
-  var STEP = 4e-3;
   var AHEAD = 0.8;
   var Scene = class {
     element;
@@ -1707,8 +1720,7 @@
     #reach;
     #svg = svg("svg", { viewBox: "0 0 100 100" });
     #objects = svg("path", { class: "objects" });
-    #trace = svg("path", { class: "trace" });
-    #contour;
+    #track;
     #otherTrace = svg("path", { class: "trace other" });
     #otherContour = svg("path", { class: "contour other" });
     #otherPlatform = svg("path", { class: "platform other" });
@@ -1726,14 +1738,13 @@
       const { hello } = run;
       const { platform, whiskers } = hello.rig;
       this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length: length2 }) => Math.hypot(x, y) + length2));
-      this.#contour = new Dots(this.#world);
+      this.#track = new Track(this.#world);
       this.#whiskers = hello.whiskers.map((name, index) => svg("path", { class: `whisker s${index % 8}` }, svg("title", {}, name)));
       this.#tips = hello.whiskers.map((_, index) => svg("path", { class: `tip s${index % 8}` }));
       this.#svg.append(
         this.#objects,
-        this.#trace,
+        this.#track.group,
         this.#otherTrace,
-        this.#contour.group,
         this.#otherContour,
         this.#otherPlatform,
         this.#platform,
@@ -1785,9 +1796,9 @@
         const height = this.#world.fit(width, Math.max(260, Math.min(620, innerHeight * 0.6)));
         this.#zoom.resize(width, height);
         set(this.#objects, { d: (run.hello.scene ?? []).map(({ points, closed }) => this.#world.line(points, closed)).join("") });
-        this.#contour.clear();
+        this.#track.clear();
       }
-      this.#contour.show(run.history.frames, frame.tick);
+      this.#track.show(run.history.frames, frame.tick);
       this.#robot(run, frame);
       this.#other(run, frame, answer);
       if (this.#isClose) {
@@ -1814,10 +1825,7 @@
       }
       return points.map((point) => this.#world.include(point, this.#reach)).some((grows) => grows);
     }
-    #robot(run, frame) {
-      const { rig } = run.hello;
-      const until = run.history.frames.slice(0, run.history.indexAt(frame.tick) + 1);
-      set(this.#trace, { d: this.#world.line(thinned(until.map(({ pose }) => pose))) });
+    #robot({ hello: { rig } }, frame) {
       set(this.#platform, { d: this.#outline(rig.platform, frame.pose) });
       const [x, y] = frame.pose;
       const [vx, vy] = frame.command;
@@ -1854,16 +1862,6 @@
       this.#close.setAttribute("aria-pressed", String(isClose));
     }
   };
-  function thinned(poses) {
-    const points = [];
-    for (const [x, y] of poses) {
-      const last = points.at(-1);
-      if (last === void 0 || Math.hypot(x - last[0], y - last[1]) > STEP) {
-        points.push([x, y]);
-      }
-    }
-    return points;
-  }
 
   // src/live/subjects.ts
   function subjects({ hello }) {

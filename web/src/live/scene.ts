@@ -3,16 +3,14 @@ import { element } from "../shared/element.ts";
 import { set, svg } from "../shared/svg.ts";
 import { Zoom } from "../shared/zoom.ts";
 import type { Answer } from "./answer.ts";
-import { Dots } from "./dots.ts";
 import type { Frame, Point, Pose } from "./protocol.ts";
 import type { Run } from "./run.ts";
+import { thinned, Track } from "./track.ts";
 import type { Panel, View } from "./view.ts";
 import { placed, World } from "./world.ts";
 
 /** The width (m) of the part that is shown around the robot. */
 const CLOSE = 0.45;
-/** The least distance (m) of two points of a drawn path. */
-const STEP = 0.004;
 /** The time (s) of the drawn command. */
 const AHEAD = 0.8;
 
@@ -24,8 +22,7 @@ export class Scene implements Panel {
   readonly #reach: number;
   readonly #svg = svg("svg", { viewBox: "0 0 100 100" });
   readonly #objects = svg("path", { class: "objects" });
-  readonly #trace = svg("path", { class: "trace" });
-  readonly #contour: Dots;
+  readonly #track: Track;
   readonly #otherTrace = svg("path", { class: "trace other" });
   readonly #otherContour = svg("path", { class: "contour other" });
   readonly #otherPlatform = svg("path", { class: "platform other" });
@@ -44,11 +41,11 @@ export class Scene implements Panel {
     const { hello } = run;
     const { platform, whiskers } = hello.rig;
     this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length }) => Math.hypot(x, y) + length));
-    this.#contour = new Dots(this.#world);
+    this.#track = new Track(this.#world);
     this.#whiskers = hello.whiskers.map((name, index) => svg("path", { class: `whisker s${index % 8}` }, svg("title", {}, name)));
     this.#tips = hello.whiskers.map((_, index) => svg("path", { class: `tip s${index % 8}` }));
     this.#svg.append(
-      this.#objects, this.#trace, this.#otherTrace, this.#contour.group, this.#otherContour, this.#otherPlatform, this.#platform,
+      this.#objects, this.#track.group, this.#otherTrace, this.#otherContour, this.#otherPlatform, this.#platform,
       this.#command, ...this.#whiskers, ...this.#tips,
     );
     this.#drawing.append(this.#svg);
@@ -96,9 +93,9 @@ export class Scene implements Panel {
       const height = this.#world.fit(width, Math.max(260, Math.min(620, innerHeight * 0.6)));
       this.#zoom.resize(width, height);
       set(this.#objects, { d: (run.hello.scene ?? []).map(({ points, closed }) => this.#world.line(points, closed)).join("") });
-      this.#contour.clear();
+      this.#track.clear();
     }
-    this.#contour.show(run.history.frames, frame.tick);
+    this.#track.show(run.history.frames, frame.tick);
     this.#robot(run, frame);
     this.#other(run, frame, answer);
     if (this.#isClose) {
@@ -127,10 +124,7 @@ export class Scene implements Panel {
     return points.map((point) => this.#world.include(point, this.#reach)).some((grows) => grows);
   }
 
-  #robot(run: Run, frame: Frame): void {
-    const { rig } = run.hello;
-    const until = run.history.frames.slice(0, run.history.indexAt(frame.tick) + 1);
-    set(this.#trace, { d: this.#world.line(thinned(until.map(({ pose }) => pose))) });
+  #robot({ hello: { rig } }: Run, frame: Frame): void {
     set(this.#platform, { d: this.#outline(rig.platform, frame.pose) });
     const [x, y] = frame.pose;
     const [vx, vy] = frame.command;
@@ -170,16 +164,4 @@ export class Scene implements Panel {
     this.#isClose = isClose;
     this.#close.setAttribute("aria-pressed", String(isClose));
   }
-}
-
-/** The positions without those that are too close to the one before. */
-function thinned(poses: readonly Pose[]): Point[] {
-  const points: Point[] = [];
-  for (const [x, y] of poses) {
-    const last = points.at(-1);
-    if (last === undefined || Math.hypot(x - last[0], y - last[1]) > STEP) {
-      points.push([x, y]);
-    }
-  }
-  return points;
 }
