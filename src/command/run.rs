@@ -10,6 +10,8 @@ use vibrissa_runtime::machine::Artifact;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::inspect::{InspectionOptions, inspect};
+#[cfg(feature = "live")]
+use super::live::{LivePage, REAL_TIME, begin, serve_on};
 use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::reports::Reports;
@@ -18,6 +20,8 @@ use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
+#[cfg(feature = "live")]
+use crate::live::{Live, RunSetup};
 use crate::load::GivenMismatch;
 #[cfg(feature = "recording")]
 use crate::recording::Recorder;
@@ -25,7 +29,6 @@ use crate::request::{Input, PolicyInput, TrialRequest};
 use crate::results::tick_lines;
 use crate::run::Run;
 use crate::trial::Trial;
-#[cfg(feature = "recording")]
 use crate::trial::TrialResult;
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -57,10 +60,14 @@ pub(super) struct RunArguments {
     ticks: Option<PathBuf>,
     /// Record the run into this MCAP file, for viewers and for `vibrissa replay`. With one scenario
     #[cfg(feature = "recording")]
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions"])]
+    #[cfg_attr(feature = "live", arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions", "live"]))]
+    #[cfg_attr(not(feature = "live"), arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions"]))]
     record: Option<PathBuf>,
     #[command(flatten)]
     pub(super) inspection: InspectionOptions,
+    #[cfg(feature = "live")]
+    #[command(flatten)]
+    pub(super) live: LivePage,
     #[command(flatten)]
     pub(super) format: Format,
     /// Run again whenever a scenario or policy is saved, and print a line for every simulated second
@@ -70,10 +77,17 @@ pub(super) struct RunArguments {
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
+    #[cfg(feature = "live")]
+    let is_live = arguments.live.is_asked_for();
+    #[cfg(not(feature = "live"))]
+    let is_live = false;
     if arguments.watch {
+        if !arguments.inspection.breakpoints.is_empty() && !is_live {
+            return Err(Failure::BreakWatch);
+        }
         return watch(arguments);
     }
-    if arguments.inspection.is_given() {
+    if arguments.inspection.is_given() && !is_live {
         return inspect(arguments, &mut files);
     }
     let prepared = prepared_trials(arguments, &mut files)?;
@@ -82,16 +96,25 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let trials = prepared.iter().map(|prepared| &prepared.trial);
     let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
     let mut ticks = TickFile::new(arguments, &mut files)?;
+    #[cfg(feature = "live")]
+    let live = arguments.live.start(REAL_TIME, &arguments.inspection.breakpoints)?;
     let mut exit = Exit::Done;
     for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
-        #[cfg(feature = "recording")]
-        let finished = match record.take() {
-            Some(file) => recorded(prepared, file)?,
+        #[cfg(feature = "live")]
+        let shown = live.as_ref().map(|live| shown(prepared, live)).transpose()?;
+        #[cfg(not(feature = "live"))]
+        let shown: Option<TrialResult> = None;
+        let finished = match shown {
+            Some(finished) => finished,
+            #[cfg(feature = "recording")]
+            None => match record.take() {
+                Some(file) => recorded(prepared, file)?,
+                None => run_with_bar(trial, &mut ())?,
+            },
+            #[cfg(not(feature = "recording"))]
             None => run_with_bar(trial, &mut ())?,
         };
-        #[cfg(not(feature = "recording"))]
-        let finished = run_with_bar(trial, &mut ())?;
         reports.add(index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
@@ -100,7 +123,21 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     ticks.write()?;
     reports.show(arguments.format)?;
+    #[cfg(feature = "live")]
+    if let Some(live) = live {
+        serve_on(&live);
+    }
     Ok(exit)
+}
+
+/// Runs a trial that a page shows.
+#[cfg(feature = "live")]
+fn shown(prepared: &Prepared, live: &Live) -> Result<TrialResult, Failure> {
+    let Prepared { trial, text, .. } = prepared;
+    let mut watcher = begin(live, RunSetup::simulated(trial, text.clone()), || false)?;
+    let finished = run_with_bar(trial, &mut watcher)?;
+    watcher.finish(&finished.run);
+    Ok(finished)
 }
 
 /// The file of `--record`, if it is wanted.
@@ -159,13 +196,8 @@ impl TickFile {
     }
 }
 
-/// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first
-/// trial runs.
-pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
-    Ok(prepared_trials(arguments, files)?.into_iter().map(|prepared| prepared.trial).collect())
-}
-
-/// The [`trials`], each with its policy.
+/// The trials of a command line, each with its policy. The warnings of each policy are printed once. An error in the last scenario shows
+/// before the first trial runs.
 pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Prepared>, Failure> {
     let mut warned = BTreeSet::new();
     let mismatch = arguments.mismatch.load(files)?;
