@@ -16,7 +16,7 @@ const length = (value: number | null): string => (value === null ? "–" : quant
 const FIGURES: readonly Figure[] = [
   { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => length(metrics.error) },
   { name: "coverage", meaning: "share of the reference that was traced", text: ({ metrics }) => (metrics.coverage === null ? "–" : `${digits(metrics.coverage * 100)} %`) },
-  { name: "spread", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => length(metrics.spread) },
+  { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => length(metrics.spread) },
   { name: "period", meaning: "wall time since the tick before", text: ({ loop }) => (loop === null ? "–" : quantity(loop.period, "s")) },
   { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => (loop === null ? "–" : quantity(loop.used, "s")) },
   { name: "speed", meaning: "commanded speed", text: ({ command }) => quantity(Math.hypot(command[0], command[1]), "m/s") },

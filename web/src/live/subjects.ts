@@ -25,7 +25,7 @@ export function subjects({ hello }: Run): Subject[] {
     unit: "m",
     series: [
       { name: "mean error", value: ({ metrics }) => metrics.error },
-      { name: "mean spread", value: ({ metrics }) => metrics.spread },
+      { name: "mean standard deviation", value: ({ metrics }) => metrics.spread },
     ],
   };
   const coverage: Subject = { title: "Coverage", unit: "", series: [{ name: "coverage", value: ({ metrics }) => metrics.coverage }] };
