@@ -105,10 +105,10 @@
     get path() {
       return this.parent === void 0 ? [] : [...this.parent.path, this];
     }
-    /** Its name without that of its outer state, which precedes it in the content of a behaviour. */
+    /** Its name without that of an outer state, which precedes it in the content of a behaviour. */
     get shortName() {
-      const prefix = `${this.parent?.name ?? ""}.`;
-      return this.name.startsWith(prefix) ? this.name.slice(prefix.length) : this.name;
+      const outer = this.path.find(({ name }) => this.name.startsWith(`${name}.`));
+      return outer === void 0 ? this.name : this.name.slice(outer.name.length + 1);
     }
     /** The names of its path. */
     get fullName() {
@@ -400,7 +400,7 @@
         path.classList.toggle("lit", arrow.from === seen);
         path.classList.toggle("taken", arrow.transitions.some(({ guard }) => guard !== null && (frame?.taken.includes(guard) ?? false)));
       }
-      this.#describe(run, seen, breaks.some(({ state }) => state === seen?.index));
+      this.#describe(run, this.#chosen, breaks.some(({ state }) => state === this.#chosen?.index));
     }
     /** Lists the transitions of a state. */
     #describe(run, node, isBroken) {
@@ -744,15 +744,17 @@
   };
 
   // src/live/quantity.ts
-  var PREFIXES = [[1, ""], [1e-3, "m"], [1e-6, "u"]];
-  var PLAIN = ["", "kg", "m^2", "1/m", "1"];
+  var DEGREE = Math.PI / 180;
+  var ANGLES = {
+    rad: [{ factor: DEGREE, unit: "deg" }, { factor: 1e-3, unit: "mrad" }, { factor: 1e-6, unit: "urad" }],
+    "rad/s": [{ factor: DEGREE, unit: "deg/s" }]
+  };
+  var PREFIXED = /^(?!kg)[A-Za-z]+(?!\^)\b/;
   function scaleOf(value, unit) {
-    const size = Math.abs(value);
-    if (size === 0 || PLAIN.includes(unit)) {
-      return { factor: 1, unit };
-    }
-    const [factor, prefix] = PREFIXES.find(([factor2]) => size >= factor2 * 0.9995) ?? [1e-6, "u"];
-    return { factor, unit: `${prefix}${unit}` };
+    const prefixed = () => ["", "m", "u"].map((prefix, index) => ({ factor: 1e-3 ** index, unit: `${prefix}${unit}` }));
+    const scales = ANGLES[unit] ?? (PREFIXED.test(unit) ? prefixed() : []);
+    const smallest = scales.at(-1) ?? { factor: 1, unit };
+    return value === 0 ? { factor: 1, unit } : scales.find(({ factor }) => Math.abs(value) >= factor * 0.9995) ?? smallest;
   }
   function quantity(value, unit) {
     const scale = scaleOf(value, unit);

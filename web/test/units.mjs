@@ -85,7 +85,7 @@ test("a transition from inside a state is one of that state, unless it stays ins
 });
 
 test("quantities have prefixes and three digits", () => {
-  const cases = [[0.00054, "rad", "540 urad"], [0.05, "m/s", "50 mm/s"], [-0.0123456, "m", "-12.3 mm"], [0, "s", "0 s"], [12.345, "s", "12.3 s"], [0.128, "", "0.128"], [0.0009999, "m", "1 mm"]];
+  const cases = [[0.00054, "rad", "540 urad"], [0.05, "m/s", "50 mm/s"], [Math.PI / 6, "rad", "30 deg"], [-Math.PI / 3, "rad/s", "-60 deg/s"], [-0.0123456, "m", "-12.3 mm"], [0, "s", "0 s"], [12.345, "s", "12.3 s"], [30, "", "30"], [0.002, "m^2", "0.002 m^2"], [0.5, "1/m", "0.5 1/m"], [0.128, "", "0.128"], [0.0009999, "m", "1 mm"]];
   for (const [value, unit, text] of cases) {
     assert.equal(quantity(value, unit), text);
   }

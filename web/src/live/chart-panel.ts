@@ -146,7 +146,7 @@ export class ChartPanel implements Panel {
       path.classList.toggle("lit", arrow.from === seen);
       path.classList.toggle("taken", arrow.transitions.some(({ guard }) => guard !== null && (frame?.taken.includes(guard) ?? false)));
     }
-    this.#describe(run, seen, breaks.some(({ state }) => state === seen?.index));
+    this.#describe(run, this.#chosen, breaks.some(({ state }) => state === this.#chosen?.index));
   }
 
   /** Lists the transitions of a state. */

@@ -1,22 +1,24 @@
-/** The prefixes of units, largest first. */
-const PREFIXES: readonly [number, string][] = [[1, ""], [1e-3, "m"], [1e-6, "u"]];
-/** Units that have no prefix. */
-const PLAIN = ["", "kg", "m^2", "1/m", "1"];
-
-/** A unit with a prefix, and its size in SI units. */
+/** A unit, and its size in SI units. */
 export interface Scale {
   factor: number;
   unit: string;
 }
 
+const DEGREE = Math.PI / 180;
+/** The units of angles, by the SI unit. The first one in which a value is at least 1 is used. */
+const ANGLES: Record<string, Scale[]> = {
+  rad: [{ factor: DEGREE, unit: "deg" }, { factor: 1e-3, unit: "mrad" }, { factor: 1e-6, unit: "urad" }],
+  "rad/s": [{ factor: DEGREE, unit: "deg/s" }],
+};
+/** Units with a prefix, whose first factor has no power. */
+const PREFIXED = /^(?!kg)[A-Za-z]+(?!\^)\b/;
+
 /** The unit in which a value has one to three digits before the point. */
 export function scaleOf(value: number, unit: string): Scale {
-  const size = Math.abs(value);
-  if (size === 0 || PLAIN.includes(unit)) {
-    return { factor: 1, unit };
-  }
-  const [factor, prefix] = PREFIXES.find(([factor]) => size >= factor * 0.9995) ?? [1e-6, "u"];
-  return { factor, unit: `${prefix}${unit}` };
+  const prefixed = (): Scale[] => ["", "m", "u"].map((prefix, index) => ({ factor: 1e-3 ** index, unit: `${prefix}${unit}` }));
+  const scales = ANGLES[unit] ?? (PREFIXED.test(unit) ? prefixed() : []);
+  const smallest = scales.at(-1) ?? { factor: 1, unit };
+  return value === 0 ? { factor: 1, unit } : (scales.find(({ factor }) => Math.abs(value) >= factor * 0.9995) ?? smallest);
 }
 
 /** A value in SI units with three digits, such as "540 urad". */

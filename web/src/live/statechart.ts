@@ -24,10 +24,10 @@ export class Node {
     return this.parent === undefined ? [] : [...this.parent.path, this];
   }
 
-  /** Its name without that of its outer state, which precedes it in the content of a behaviour. */
+  /** Its name without that of an outer state, which precedes it in the content of a behaviour. */
   get shortName(): string {
-    const prefix = `${this.parent?.name ?? ""}.`;
-    return this.name.startsWith(prefix) ? this.name.slice(prefix.length) : this.name;
+    const outer = this.path.find(({ name }) => this.name.startsWith(`${name}.`));
+    return outer === undefined ? this.name : this.name.slice(outer.name.length + 1);
   }
 
   /** The names of its path. */
