@@ -474,6 +474,31 @@
     }
   };
 
+  // src/live/quantity.ts
+  var DEGREE = Math.PI / 180;
+  var ANGLES = {
+    rad: [{ factor: DEGREE, unit: "deg" }, { factor: 1e-3, unit: "mrad" }, { factor: 1e-6, unit: "urad" }],
+    "rad/s": [{ factor: DEGREE, unit: "deg/s" }]
+  };
+  var PREFIXED = /^(?!kg)[A-Za-z]+(?!\^)\b/;
+  function scaleOf(value, unit) {
+    const prefixed = () => ["", "m", "u"].map((prefix, index) => ({ factor: 1e-3 ** index, unit: `${prefix}${unit}` }));
+    const scales = ANGLES[unit] ?? (PREFIXED.test(unit) ? prefixed() : []);
+    const smallest = scales.at(-1) ?? { factor: 1, unit };
+    return value === 0 ? { factor: 1, unit } : scales.find(({ factor }) => Math.abs(value) >= factor * 0.9995) ?? smallest;
+  }
+  function quantity(value, unit) {
+    const scale = scaleOf(value, unit);
+    return `${digits(value / scale.factor)} ${scale.unit}`.trim();
+  }
+  function digits(value) {
+    const size = Math.abs(value);
+    if (size >= 1e5 || size > 0 && size < 1e-4) {
+      return value.toExponential(2);
+    }
+    return String(Number(value.toPrecision(size >= 100 ? 4 : 3)));
+  }
+
   // src/live/controls.ts
   var DURATIONS = [[5, "5 s"], [20, "20 s"], [60, "1 min"], [Infinity, "whole run"]];
   var KEYS = "P pause or run · S step · L newest tick · , and . one tick · [ and ] one state · U outer state";
@@ -605,14 +630,18 @@
       }
     }
   };
-  function statusText({ state, reason, breakpoint, verdict }) {
+  function statusText({ state, reason, breakpoint, verdict, metrics }) {
     switch (state) {
       case "running":
         return "running";
       case "paused":
         return breakpoint === null ? reason === "start" ? "paused at the start" : "paused" : `paused at ${breakpoint}`;
-      case "finished":
-        return `finished: ${[verdict, reason].filter((text2) => text2 !== null).join(", ") || "ended"}`;
+      case "finished": {
+        const error = metrics?.error ?? null;
+        const coverage = metrics?.coverage ?? null;
+        const figures = [error === null ? null : `error ${quantity(error, "m")}`, coverage === null ? null : `coverage ${digits(coverage * 100)} %`];
+        return `finished: ${[verdict, reason, ...figures].filter((text2) => text2 !== null).join(", ") || "ended"}`;
+      }
     }
   }
 
@@ -742,31 +771,6 @@
       return this.frames[lastIndex(this.frames, (frame) => frame.tick <= tick)];
     }
   };
-
-  // src/live/quantity.ts
-  var DEGREE = Math.PI / 180;
-  var ANGLES = {
-    rad: [{ factor: DEGREE, unit: "deg" }, { factor: 1e-3, unit: "mrad" }, { factor: 1e-6, unit: "urad" }],
-    "rad/s": [{ factor: DEGREE, unit: "deg/s" }]
-  };
-  var PREFIXED = /^(?!kg)[A-Za-z]+(?!\^)\b/;
-  function scaleOf(value, unit) {
-    const prefixed = () => ["", "m", "u"].map((prefix, index) => ({ factor: 1e-3 ** index, unit: `${prefix}${unit}` }));
-    const scales = ANGLES[unit] ?? (PREFIXED.test(unit) ? prefixed() : []);
-    const smallest = scales.at(-1) ?? { factor: 1, unit };
-    return value === 0 ? { factor: 1, unit } : scales.find(({ factor }) => Math.abs(value) >= factor * 0.9995) ?? smallest;
-  }
-  function quantity(value, unit) {
-    const scale = scaleOf(value, unit);
-    return `${digits(value / scale.factor)} ${scale.unit}`.trim();
-  }
-  function digits(value) {
-    const size = Math.abs(value);
-    if (size >= 1e5 || size > 0 && size < 1e-4) {
-      return value.toExponential(2);
-    }
-    return String(Number(value.toPrecision(size >= 100 ? 4 : 3)));
-  }
 
   // src/live/parameter-field.ts
   var STEPS = 200;

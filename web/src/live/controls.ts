@@ -1,6 +1,7 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import type { Status } from "./protocol.ts";
+import { digits, quantity } from "./quantity.ts";
 import type { Actions, Panel, View } from "./view.ts";
 
 /** The durations (s) of the plots. */
@@ -147,10 +148,15 @@ export class Controls implements Panel {
 }
 
 /** What the run does, in words. */
-function statusText({ state, reason, breakpoint, verdict }: Status): string {
+function statusText({ state, reason, breakpoint, verdict, metrics }: Status): string {
   switch (state) {
     case "running": return "running";
     case "paused": return breakpoint === null ? (reason === "start" ? "paused at the start" : "paused") : `paused at ${breakpoint}`;
-    case "finished": return `finished: ${[verdict, reason].filter((text) => text !== null).join(", ") || "ended"}`;
+    case "finished": {
+      const error = metrics?.error ?? null;
+      const coverage = metrics?.coverage ?? null;
+      const figures = [error === null ? null : `error ${quantity(error, "m")}`, coverage === null ? null : `coverage ${digits(coverage * 100)} %`];
+      return `finished: ${[verdict, reason, ...figures].filter((text) => text !== null).join(", ") || "ended"}`;
+    }
   }
 }

@@ -94,9 +94,15 @@ export interface Frame {
   taken: number[];
   command: [x: number, y: number, yawRate: number];
   contour: ContourFrame[];
-  metrics: { error: number | null; coverage: number | null; spread: number | null };
+  metrics: Metrics;
   loop: { period: number; used: number; overload: boolean } | null;
   messages: string[];
+}
+
+export interface Metrics {
+  error: number | null;
+  coverage: number | null;
+  spread: number | null;
 }
 
 export interface WhiskerFrame {
@@ -128,6 +134,7 @@ export interface Status {
   reason: string | null;
   breakpoint: string | null;
   verdict: string | null;
+  metrics: Metrics | null;
   ticks: number;
   kept_every: number;
   breakpoints: BreakpointInfo[];
