@@ -82,15 +82,39 @@
   }
   function set(element2, attributes) {
     for (const [name, value] of Object.entries(attributes)) {
-      element2.setAttribute(name, String(value));
+      const text2 = String(value);
+      if (element2.getAttribute(name) !== text2) {
+        element2.setAttribute(name, text2);
+      }
     }
   }
+
+  // src/shared/width.ts
+  var Width = class {
+    #value = 0;
+    /** `changed` is called after every change. */
+    constructor(element2, changed) {
+      new ResizeObserver((entries) => {
+        this.#value = entries.at(-1)?.contentRect.width ?? 0;
+        changed();
+      }).observe(element2);
+    }
+    get value() {
+      return this.#value;
+    }
+  };
 
   // src/live/statechart.ts
   var ENDED = -1;
   var Node = class {
     index;
     name;
+    /** Its name without that of an outer state, which precedes it in the content of a behaviour. */
+    shortName;
+    /** The state and its outer states, the outermost one first. The machine is not among them. */
+    path;
+    /** The names of its path. */
+    fullName;
     behaviour;
     parent;
     isInitial;
@@ -100,19 +124,10 @@
     constructor(index, name, behaviour, parent, isInitial) {
       [this.index, this.name, this.behaviour, this.parent, this.isInitial] = [index, name, behaviour, parent, isInitial];
       parent?.children.push(this);
-    }
-    /** The state and its outer states, the outermost one first. The machine is not among them. */
-    get path() {
-      return this.parent === void 0 ? [] : [...this.parent.path, this];
-    }
-    /** Its name without that of an outer state, which precedes it in the content of a behaviour. */
-    get shortName() {
-      const outer = this.path.find(({ name }) => this.name.startsWith(`${name}.`));
-      return outer === void 0 ? this.name : this.name.slice(outer.name.length + 1);
-    }
-    /** The names of its path. */
-    get fullName() {
-      return this.path.map(({ shortName }) => shortName).join(" / ");
+      this.path = parent === void 0 ? [] : [...parent.path, this];
+      const outer = parent?.path.find((node) => name.startsWith(`${node.name}.`));
+      this.shortName = outer === void 0 ? name : name.slice(outer.name.length + 1);
+      this.fullName = this.path.map(({ shortName }) => shortName).join(" / ");
     }
     /** This state and all inner states, outer ones first. */
     all() {
@@ -275,6 +290,7 @@
     #svg = svg("svg", { role: "group" });
     #list = element("div", "transitions");
     #follow;
+    #width;
     #boxes = /* @__PURE__ */ new Map();
     #arrows = [];
     #level;
@@ -290,6 +306,7 @@
       this.#follow.setAttribute("aria-pressed", "true");
       const up = button("up", () => this.up(), "go to the outer state (key U)");
       this.#drawing.append(this.#svg);
+      this.#width = new Width(this.#drawing, () => actions.refresh());
       this.element = element("section", "statechart", element("div", "head", element("h2", "", "Statechart"), element("div", "tools", up, this.#follow)), this.#path, this.#drawing, this.#list);
     }
     /** Goes to the outer state of the shown level. */
@@ -305,7 +322,7 @@
           [this.#level, this.#chosen] = [level, void 0];
         }
       }
-      const width = this.#drawing.clientWidth;
+      const width = this.#width.value;
       const key = `${width} ${this.#level.index}`;
       if (key !== this.#drawn && width > 0) {
         this.#drawn = key;
@@ -850,13 +867,17 @@
 
   // src/live/strip.ts
   var STRIP = 16;
+  var TITLED = 3;
   function drawStrip(group, spans, axis, chart, shades) {
     const bars = [];
     for (const span of visible(spans, axis)) {
       const [left, right] = [axis.x(Math.max(span.from, axis.from)), axis.x(Math.min(span.to, axis.to))];
       const width = Math.max(0.7, right - left);
-      const bar = svg("rect", { x: left, y: 0, width, height: STRIP, fill: shades.of(span.state) }, svg("title", {}, `${chart.name(span.state)}, ${span.from.toFixed(2)} to ${span.to.toFixed(2)} s`));
+      const bar = svg("rect", { x: left, y: 0, width, height: STRIP, fill: shades.of(span.state) });
       bars.push(bar);
+      if (width >= TITLED) {
+        bar.append(svg("title", {}, `${chart.name(span.state)}, ${span.from.toFixed(2)} to ${span.to.toFixed(2)} s`));
+      }
       const name = chart.nodes[span.state]?.shortName ?? "ended";
       if (name.length * 6 + 6 < width) {
         bars.push(svg("text", { x: left + 3, y: STRIP - 4.5, class: "state" }, name));
@@ -928,6 +949,7 @@
     #svg = svg("svg", { role: "img", "aria-label": "states of the run, and of the changed policy" });
     #strips = [svg("g"), svg("g")];
     #cursor = svg("line", { class: "cursor", y1: 0, y2: 2 * STRIP + 4 });
+    #width;
     #kinds;
     #answer;
     /** The first tick with the change. Until something is changed, it is the shown one. */
@@ -935,6 +957,7 @@
     #shown = { tick: 0, time: 0 };
     #timer;
     #asked = 0;
+    #drawn = "";
     constructor(run, actions) {
       [this.#run, this.#actions] = [run, actions];
       const { capabilities, parameters } = run.hello;
@@ -961,6 +984,7 @@
       this.#svg.addEventListener("click", (event) => this.#seek(event));
       this.#result.append(this.#values, this.#svg, this.#summary, this.#goTo);
       this.#result.hidden = true;
+      this.#width = new Width(this.#result, () => actions.refresh());
       this.#summary.setAttribute("aria-live", "polite");
       const isPossible = (capabilities.counterfactual || capabilities.closed_loop) && parameters.length > 0;
       this.element = element("section", "counterfactual", ...isPossible ? [heading, element("div", "kinds", recordedLabel, closedLabel, this.#start), this.#result, this.#table()] : [element("h2", "", "Counterfactual"), element("p", "hint", "Nothing can be changed in this run.")]);
@@ -1036,9 +1060,16 @@
     }
     #show(answer) {
       const { chart, shades, history, hello } = this.#run;
-      const width = this.#result.clientWidth;
+      const width = this.#width.value;
       const end = Math.max(history.last?.time ?? 0, answer.frames.at(-1)?.time ?? 0);
       const axis = new TimeAxis(answer.time, end, LEFT, Math.max(LEFT + 10, width));
+      const x = axis.x(Math.max(axis.from, Math.min(axis.to, this.#shown.time)));
+      set(this.#cursor, { x1: x, x2: x });
+      const key = [width, answer.id, answer.frames.length, answer.isDone, history.frames.length, end].join();
+      if (key === this.#drawn) {
+        return;
+      }
+      this.#drawn = key;
       set(this.#svg, { width, height: 2 * STRIP + 4, viewBox: `0 0 ${width} ${2 * STRIP + 4}` });
       [history.spans, answer.spans].forEach((spans, index) => {
         const strip = this.#strips[index];
@@ -1047,8 +1078,6 @@
           strip.append(svg("text", { class: "tick", x: 0, y: STRIP - 4 }, index === 0 ? "run" : "changed"));
         }
       });
-      const x = axis.x(Math.max(axis.from, Math.min(axis.to, this.#shown.time)));
-      set(this.#cursor, { x1: x, x2: x });
       const unit = (name) => hello.parameters.find((info) => info.name === name)?.unit ?? "";
       const values = Object.entries(answer.set).map(([name, value]) => `${name} = ${quantity(value, unit(name))}`);
       this.#values.textContent = `${answer.kind === "recorded" ? "Recorded samples" : "Closed loop"}, ${values.join(", ")}`;
@@ -1232,6 +1261,7 @@
     #content = svg("g");
     #cursor = svg("line", { class: "cursor", y1: 0, y2: TOP + HEIGHT2 });
     #values;
+    #width;
     #axis = new TimeAxis(0, 1, 0, 1);
     #drawn = "";
     constructor(subject, actions) {
@@ -1250,13 +1280,14 @@
         head.append(button("×", subject.close, `remove the plot of ${subject.title}`));
       }
       this.#svg.append(this.#strip, this.#second, this.#content, this.#cursor);
-      this.element = element("section", "plot", head, element("div", "plot-body"));
-      this.element.lastElementChild?.append(this.#svg);
+      const body = element("div", "", this.#svg);
+      this.element = element("section", "plot", head, body);
+      this.#width = new Width(body, () => actions.refresh());
       this.#svg.setAttribute("aria-label", `${subject.title} over time`);
       this.#svg.addEventListener("pointerdown", (event) => this.#drag(event));
     }
     update(view) {
-      const width = this.#svg.parentElement?.clientWidth ?? 0;
+      const width = this.#width.value;
       if (width === 0) {
         return;
       }
@@ -1718,6 +1749,7 @@
 
   // src/live/scene.ts
   var CLOSE = 0.45;
+  var TALLEST = 560;
   var AHEAD = 0.8;
   var Scene = class {
     element;
@@ -1738,9 +1770,10 @@
     #drawing = element("div", "drawing");
     #close;
     #isClose = false;
-    #size = "";
+    #width;
+    #drawnWidth = 0;
     #seen = 0;
-    constructor(run) {
+    constructor(run, actions) {
       const { hello } = run;
       const { platform, whiskers } = hello.rig;
       this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length: length2 }) => Math.hypot(x, y) + length2));
@@ -1760,6 +1793,7 @@
       );
       this.#drawing.append(this.#svg);
       this.#zoom = new Zoom(this.#drawing, this.#svg);
+      this.#width = new Width(this.#drawing, () => actions.refresh());
       this.#drawing.tabIndex = 0;
       this.#drawing.setAttribute("role", "group");
       this.#drawing.setAttribute("aria-label", "scene from above. Keys: plus and minus zoom, 0 shows everything, arrows move");
@@ -1795,11 +1829,10 @@
         return;
       }
       const hasGrown = this.#include(run, answer);
-      const width = this.#drawing.clientWidth;
-      const size = `${width} ${innerHeight}`;
-      if (hasGrown || size !== this.#size) {
-        this.#size = size;
-        const height = this.#world.fit(width, Math.max(260, Math.min(620, innerHeight * 0.6)));
+      const width = this.#width.value;
+      if (hasGrown || width !== this.#drawnWidth) {
+        this.#drawnWidth = width;
+        const height = this.#world.fit(width, TALLEST);
         this.#zoom.resize(width, height);
         set(this.#objects, { d: (run.hello.scene ?? []).map(({ points, closed }) => this.#world.line(points, closed)).join("") });
         this.#track.clear();
@@ -1940,7 +1973,6 @@
         (message) => this.#receive(message),
         (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second.")
       );
-      addEventListener("resize", () => this.refresh());
     }
     send(message) {
       this.#controls.report("");
@@ -2029,7 +2061,7 @@
       [this.#run, this.#selected, this.#answer] = [run, void 0, void 0];
       this.#chart = new ChartPanel(run, this);
       this.#counterfactual = new Counterfactual(run, this);
-      const scene = new Scene(run);
+      const scene = new Scene(run, this);
       const guards = new Guards(run, this, (guard) => this.#plotGuard(guard));
       const figures = new Figures();
       const breakpoints = new BreakpointList(run, this);

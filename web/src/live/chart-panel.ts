@@ -1,6 +1,7 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import { set, svg } from "../shared/svg.ts";
+import { Width } from "../shared/width.ts";
 import { label, layOut, type Box } from "./layout.ts";
 import type { Run } from "./run.ts";
 import { Node, type Arrow } from "./statechart.ts";
@@ -15,6 +16,7 @@ export class ChartPanel implements Panel {
   readonly #svg = svg("svg", { role: "group" });
   readonly #list = element("div", "transitions");
   readonly #follow: HTMLButtonElement;
+  readonly #width: Width;
   readonly #boxes = new Map<Node, SVGGElement>();
   readonly #arrows: { arrow: Arrow; path: SVGPathElement }[] = [];
   #level: Node;
@@ -31,6 +33,7 @@ export class ChartPanel implements Panel {
     this.#follow.setAttribute("aria-pressed", "true");
     const up = button("up", () => this.up(), "go to the outer state (key U)");
     this.#drawing.append(this.#svg);
+    this.#width = new Width(this.#drawing, () => actions.refresh());
     this.element = element("section", "statechart", element("div", "head", element("h2", "", "Statechart"), element("div", "tools", up, this.#follow)), this.#path, this.#drawing, this.#list);
   }
 
@@ -48,7 +51,7 @@ export class ChartPanel implements Panel {
         [this.#level, this.#chosen] = [level, undefined];
       }
     }
-    const width = this.#drawing.clientWidth;
+    const width = this.#width.value;
     const key = `${width} ${this.#level.index}`;
     if (key !== this.#drawn && width > 0) {
       this.#drawn = key;

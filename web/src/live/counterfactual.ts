@@ -1,6 +1,7 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import { set, svg } from "../shared/svg.ts";
+import { Width } from "../shared/width.ts";
 import { Answer } from "./answer.ts";
 import { ParameterField } from "./parameter-field.ts";
 import type { Fault, Kind, Piece } from "./protocol.ts";
@@ -32,6 +33,7 @@ export class Counterfactual implements Panel {
   readonly #svg = svg("svg", { role: "img", "aria-label": "states of the run, and of the changed policy" });
   readonly #strips = [svg("g"), svg("g")];
   readonly #cursor = svg("line", { class: "cursor", y1: 0, y2: 2 * STRIP + 4 });
+  readonly #width: Width;
   readonly #kinds: Record<Kind, HTMLInputElement>;
   #answer: Answer | undefined;
   /** The first tick with the change. Until something is changed, it is the shown one. */
@@ -39,6 +41,7 @@ export class Counterfactual implements Panel {
   #shown: { tick: number; time: number } = { tick: 0, time: 0 };
   #timer: number | undefined;
   #asked = 0;
+  #drawn = "";
 
   constructor(run: Run, actions: Actions) {
     [this.#run, this.#actions] = [run, actions];
@@ -66,6 +69,7 @@ export class Counterfactual implements Panel {
     this.#svg.addEventListener("click", (event) => this.#seek(event));
     this.#result.append(this.#values, this.#svg, this.#summary, this.#goTo);
     this.#result.hidden = true;
+    this.#width = new Width(this.#result, () => actions.refresh());
     this.#summary.setAttribute("aria-live", "polite");
     const isPossible = (capabilities.counterfactual || capabilities.closed_loop) && parameters.length > 0;
     this.element = element("section", "counterfactual", ...(isPossible ? [heading, element("div", "kinds", recordedLabel, closedLabel, this.#start), this.#result, this.#table()] : [element("h2", "", "Counterfactual"), element("p", "hint", "Nothing can be changed in this run.")]));
@@ -149,9 +153,16 @@ export class Counterfactual implements Panel {
 
   #show(answer: Answer): void {
     const { chart, shades, history, hello } = this.#run;
-    const width = this.#result.clientWidth;
+    const width = this.#width.value;
     const end = Math.max(history.last?.time ?? 0, answer.frames.at(-1)?.time ?? 0);
     const axis = new TimeAxis(answer.time, end, LEFT, Math.max(LEFT + 10, width));
+    const x = axis.x(Math.max(axis.from, Math.min(axis.to, this.#shown.time)));
+    set(this.#cursor, { x1: x, x2: x });
+    const key = [width, answer.id, answer.frames.length, answer.isDone, history.frames.length, end].join();
+    if (key === this.#drawn) {
+      return;
+    }
+    this.#drawn = key;
     set(this.#svg, { width, height: 2 * STRIP + 4, viewBox: `0 0 ${width} ${2 * STRIP + 4}` });
     [history.spans, answer.spans].forEach((spans, index) => {
       const strip = this.#strips[index];
@@ -160,8 +171,6 @@ export class Counterfactual implements Panel {
         strip.append(svg("text", { class: "tick", x: 0, y: STRIP - 4 }, index === 0 ? "run" : "changed"));
       }
     });
-    const x = axis.x(Math.max(axis.from, Math.min(axis.to, this.#shown.time)));
-    set(this.#cursor, { x1: x, x2: x });
     const unit = (name: string): string => hello.parameters.find((info) => info.name === name)?.unit ?? "";
     const values = Object.entries(answer.set).map(([name, value]) => `${name} = ${quantity(value, unit(name))}`);
     this.#values.textContent = `${answer.kind === "recorded" ? "Recorded samples" : "Closed loop"}, ${values.join(", ")}`;

@@ -45,7 +45,6 @@ export class Page implements Actions {
       (message) => this.#receive(message),
       (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second."),
     );
-    addEventListener("resize", () => this.refresh());
   }
 
   send(message: PageMessage): void {
@@ -142,7 +141,7 @@ export class Page implements Actions {
     [this.#run, this.#selected, this.#answer] = [run, undefined, undefined];
     this.#chart = new ChartPanel(run, this);
     this.#counterfactual = new Counterfactual(run, this);
-    const scene = new Scene(run);
+    const scene = new Scene(run, this);
     const guards = new Guards(run, this, (guard) => this.#plotGuard(guard));
     const figures = new Figures();
     const breakpoints = new BreakpointList(run, this);

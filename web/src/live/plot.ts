@@ -1,6 +1,7 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import { set, svg } from "../shared/svg.ts";
+import { Width } from "../shared/width.ts";
 import type { Frame } from "./protocol.ts";
 import { quantity } from "./quantity.ts";
 import { drawStrip, STRIP } from "./strip.ts";
@@ -44,6 +45,7 @@ export class Plot implements Panel {
   readonly #content = svg("g");
   readonly #cursor = svg("line", { class: "cursor", y1: 0, y2: TOP + HEIGHT });
   readonly #values: HTMLElement[];
+  readonly #width: Width;
   #axis = new TimeAxis(0, 1, 0, 1);
   #drawn = "";
 
@@ -63,14 +65,15 @@ export class Plot implements Panel {
       head.append(button("×", subject.close, `remove the plot of ${subject.title}`));
     }
     this.#svg.append(this.#strip, this.#second, this.#content, this.#cursor);
-    this.element = element("section", "plot", head, element("div", "plot-body"));
-    this.element.lastElementChild?.append(this.#svg);
+    const body = element("div", "", this.#svg);
+    this.element = element("section", "plot", head, body);
+    this.#width = new Width(body, () => actions.refresh());
     this.#svg.setAttribute("aria-label", `${subject.title} over time`);
     this.#svg.addEventListener("pointerdown", (event) => this.#drag(event));
   }
 
   update(view: View): void {
-    const width = this.#svg.parentElement?.clientWidth ?? 0;
+    const width = this.#width.value;
     if (width === 0) {
       return;
     }

@@ -1,16 +1,19 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import { set, svg } from "../shared/svg.ts";
+import { Width } from "../shared/width.ts";
 import { Zoom } from "../shared/zoom.ts";
 import type { Answer } from "./answer.ts";
 import type { Frame, Point, Pose } from "./protocol.ts";
 import type { Run } from "./run.ts";
 import { thinned, Track } from "./track.ts";
-import type { Panel, View } from "./view.ts";
+import type { Actions, Panel, View } from "./view.ts";
 import { placed, World } from "./world.ts";
 
 /** The width (m) of the part that is shown around the robot. */
 const CLOSE = 0.45;
+/** The largest height (px). */
+const TALLEST = 560;
 /** The time (s) of the drawn command. */
 const AHEAD = 0.8;
 
@@ -34,10 +37,11 @@ export class Scene implements Panel {
   readonly #drawing = element("div", "drawing");
   readonly #close: HTMLButtonElement;
   #isClose = false;
-  #size = "";
+  readonly #width: Width;
+  #drawnWidth = 0;
   #seen = 0;
 
-  constructor(run: Run) {
+  constructor(run: Run, actions: Actions) {
     const { hello } = run;
     const { platform, whiskers } = hello.rig;
     this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length }) => Math.hypot(x, y) + length));
@@ -50,6 +54,7 @@ export class Scene implements Panel {
     );
     this.#drawing.append(this.#svg);
     this.#zoom = new Zoom(this.#drawing, this.#svg);
+    this.#width = new Width(this.#drawing, () => actions.refresh());
     this.#drawing.tabIndex = 0;
     this.#drawing.setAttribute("role", "group");
     this.#drawing.setAttribute("aria-label", "scene from above. Keys: plus and minus zoom, 0 shows everything, arrows move");
@@ -86,11 +91,10 @@ export class Scene implements Panel {
       return;
     }
     const hasGrown = this.#include(run, answer);
-    const width = this.#drawing.clientWidth;
-    const size = `${width} ${innerHeight}`;
-    if (hasGrown || size !== this.#size) {
-      this.#size = size;
-      const height = this.#world.fit(width, Math.max(260, Math.min(620, innerHeight * 0.6)));
+    const width = this.#width.value;
+    if (hasGrown || width !== this.#drawnWidth) {
+      this.#drawnWidth = width;
+      const height = this.#world.fit(width, TALLEST);
       this.#zoom.resize(width, height);
       set(this.#objects, { d: (run.hello.scene ?? []).map(({ points, closed }) => this.#world.line(points, closed)).join("") });
       this.#track.clear();

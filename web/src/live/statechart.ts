@@ -7,6 +7,12 @@ export const ENDED = -1;
 export class Node {
   readonly index: number;
   readonly name: string;
+  /** Its name without that of an outer state, which precedes it in the content of a behaviour. */
+  readonly shortName: string;
+  /** The state and its outer states, the outermost one first. The machine is not among them. */
+  readonly path: readonly Node[];
+  /** The names of its path. */
+  readonly fullName: string;
   readonly behaviour: string | undefined;
   readonly parent: Node | undefined;
   readonly isInitial: boolean;
@@ -17,22 +23,10 @@ export class Node {
   constructor(index: number, name: string, behaviour: string | undefined, parent: Node | undefined, isInitial: boolean) {
     [this.index, this.name, this.behaviour, this.parent, this.isInitial] = [index, name, behaviour, parent, isInitial];
     parent?.children.push(this);
-  }
-
-  /** The state and its outer states, the outermost one first. The machine is not among them. */
-  get path(): Node[] {
-    return this.parent === undefined ? [] : [...this.parent.path, this];
-  }
-
-  /** Its name without that of an outer state, which precedes it in the content of a behaviour. */
-  get shortName(): string {
-    const outer = this.path.find(({ name }) => this.name.startsWith(`${name}.`));
-    return outer === undefined ? this.name : this.name.slice(outer.name.length + 1);
-  }
-
-  /** The names of its path. */
-  get fullName(): string {
-    return this.path.map(({ shortName }) => shortName).join(" / ");
+    this.path = parent === undefined ? [] : [...parent.path, this];
+    const outer = parent?.path.find((node) => name.startsWith(`${node.name}.`));
+    this.shortName = outer === undefined ? name : name.slice(outer.name.length + 1);
+    this.fullName = this.path.map(({ shortName }) => shortName).join(" / ");
   }
 
   /** This state and all inner states, outer ones first. */

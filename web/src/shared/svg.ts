@@ -11,9 +11,12 @@ export function svg<Name extends keyof SVGElementTagNameMap>(name: Name, attribu
   return element;
 }
 
-/** Sets attributes of an element. */
+/** Sets attributes of an element. Those that have their value already are left alone, so that nothing is drawn again. */
 export function set(element: Element, attributes: Record<string, Value>): void {
   for (const [name, value] of Object.entries(attributes)) {
-    element.setAttribute(name, String(value));
+    const text = String(value);
+    if (element.getAttribute(name) !== text) {
+      element.setAttribute(name, text);
+    }
   }
 }
