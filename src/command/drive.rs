@@ -163,26 +163,23 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     let program = Arc::new(artifact.program);
     let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
-    let mut record = |entry: &LoopRecord| recording.iter_mut().for_each(|recording| recording.take(entry));
-    let failure = |cause| Failure::Emulated { scenario: trial.inputs.scenario.clone(), cause };
+    let record = |entry: &LoopRecord| recording.iter_mut().for_each(|recording| recording.take(entry));
     #[cfg(feature = "live")]
     let live = arguments.live.start(REAL_TIME, &[])?;
     #[cfg(feature = "live")]
-    let shown = match &live {
-        Some(live) => {
-            let mut watcher = begin(live, RunSetup::emulated(&trial, &config.rig, text), || false)?;
-            let emulated = emulated::run(&trial, &config, &settings, &mut record, &mut watcher).map_err(failure)?;
-            watcher.finish(&emulated.result.run);
-            Some(emulated)
-        }
-        None => None,
-    };
+    let page = |live| begin(live, RunSetup::emulated(&trial, &config.rig, text), || false);
+    #[cfg(feature = "live")]
+    let mut page = live.as_ref().map(page).transpose()?;
     #[cfg(not(feature = "live"))]
-    let shown = None;
-    let emulated = match shown {
-        Some(emulated) => emulated,
-        None => emulated::run(&trial, &config, &settings, &mut record, &mut ()).map_err(failure)?,
-    };
+    let mut page = ();
+    let emulated = emulated::run(&trial, &config, &settings, record, &mut page).map_err(|cause| {
+        let scenario = trial.inputs.scenario.clone();
+        Failure::Emulated { scenario, cause }
+    })?;
+    #[cfg(feature = "live")]
+    if let Some(page) = page {
+        page.finish(&emulated.result.run);
+    }
     if let Some(recording) = recording {
         recording.finish()?;
     }

@@ -83,6 +83,9 @@ pub(super) enum Failure {
     #[cfg(feature = "live")]
     #[error(transparent)]
     Live(#[from] LiveError),
+    #[cfg(feature = "recording")]
+    #[error("--break ends a run before its recording is whole; add --live, whose page shows the breakpoints")]
+    BreakRecord,
     #[error("--break ends a run, and --watch begins the next one; add --live, whose page shows the breakpoints")]
     BreakWatch,
     #[cfg(feature = "live")]

@@ -21,7 +21,7 @@ use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
 #[cfg(feature = "live")]
-use crate::live::{Live, RunSetup};
+use crate::live::{Live, LiveWatcher, RunSetup};
 use crate::load::GivenMismatch;
 #[cfg(feature = "recording")]
 use crate::recording::Recorder;
@@ -29,7 +29,6 @@ use crate::request::{Input, PolicyInput, TrialRequest};
 use crate::results::tick_lines;
 use crate::run::Run;
 use crate::trial::Trial;
-use crate::trial::TrialResult;
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -60,8 +59,7 @@ pub(super) struct RunArguments {
     ticks: Option<PathBuf>,
     /// Record the run into this MCAP file, for viewers and for `vibrissa replay`. With one scenario
     #[cfg(feature = "recording")]
-    #[cfg_attr(feature = "live", arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions", "live"]))]
-    #[cfg_attr(not(feature = "live"), arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions"]))]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "transitions"])]
     record: Option<PathBuf>,
     #[command(flatten)]
     pub(super) inspection: InspectionOptions,
@@ -88,6 +86,10 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         return watch(arguments);
     }
     if arguments.inspection.is_given() && !is_live {
+        #[cfg(feature = "recording")]
+        if arguments.record.is_some() {
+            return Err(Failure::BreakRecord);
+        }
         return inspect(arguments, &mut files);
     }
     let prepared = prepared_trials(arguments, &mut files)?;
@@ -101,20 +103,24 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut exit = Exit::Done;
     for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
+        #[cfg(feature = "recording")]
+        let (file, recorder) = record.take().map(|file| recorder(prepared, file)).transpose()?.unzip();
+        #[cfg(not(feature = "recording"))]
+        let recorder = ();
         #[cfg(feature = "live")]
-        let shown = live.as_ref().map(|live| shown(prepared, live)).transpose()?;
+        let page = live.as_ref().map(|live| page(prepared, live)).transpose()?;
         #[cfg(not(feature = "live"))]
-        let shown: Option<TrialResult> = None;
-        let finished = match shown {
-            Some(finished) => finished,
-            #[cfg(feature = "recording")]
-            None => match record.take() {
-                Some(file) => recorded(prepared, file)?,
-                None => run_with_bar(trial, &mut ())?,
-            },
-            #[cfg(not(feature = "recording"))]
-            None => run_with_bar(trial, &mut ())?,
-        };
+        let page = ();
+        let mut watcher = (recorder, page);
+        let finished = run_with_bar(trial, &mut watcher)?;
+        #[cfg(feature = "live")]
+        if let Some(page) = watcher.1 {
+            page.finish(&finished.run);
+        }
+        #[cfg(feature = "recording")]
+        if let (Some(file), Some(recorder)) = (file, watcher.0) {
+            file.write(recorder.finish(&finished.run)?)?;
+        }
         reports.add(index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
@@ -130,14 +136,10 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-/// Runs a trial that a page shows.
+/// The watcher that shows a trial on a page.
 #[cfg(feature = "live")]
-fn shown(prepared: &Prepared, live: &Live) -> Result<TrialResult, Failure> {
-    let Prepared { trial, text, .. } = prepared;
-    let mut watcher = begin(live, RunSetup::simulated(trial, text.clone()), || false)?;
-    let finished = run_with_bar(trial, &mut watcher)?;
-    watcher.finish(&finished.run);
-    Ok(finished)
+fn page<'i>(prepared: &Prepared, live: &Live) -> Result<LiveWatcher<'i>, Failure> {
+    begin(live, RunSetup::simulated(&prepared.trial, prepared.text.clone()), || false)
 }
 
 /// The file of `--record`, if it is wanted.
@@ -149,14 +151,11 @@ fn record_file(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Opt
     Ok(arguments.record.as_ref().map(|path| files.output("--record", path)).transpose()?)
 }
 
-/// Runs a trial and records it.
+/// The watcher that records a trial into a file.
 #[cfg(feature = "recording")]
-fn recorded(prepared: &Prepared, file: Output) -> Result<TrialResult, Failure> {
+fn recorder(prepared: &Prepared, file: Output) -> Result<(Output, Recorder), Failure> {
     let Prepared { trial, text, artifact } = prepared;
-    let mut recorder = Recorder::new(trial, artifact, text.clone())?;
-    let finished = run_with_bar(trial, &mut recorder)?;
-    file.write(recorder.finish(&finished.run)?)?;
-    Ok(finished)
+    Ok((file, Recorder::new(trial, artifact, text.clone())?))
 }
 
 /// A trial with the policy that it was made from.

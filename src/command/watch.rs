@@ -46,14 +46,18 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
         }
         let run = |trial: &Prepared| {
             #[cfg(feature = "live")]
-            if let Some(live) = &live {
-                let setup = RunSetup::simulated(&trial.trial, trial.text.clone());
-                let mut watcher = begin(live, setup, || watch.has_changed())?;
-                let finished = run_printed(&trial.trial, &mut watcher, &watch)?;
-                watcher.finish(&finished.run);
-                return Ok(finished);
+            let page =
+                |live| begin(live, RunSetup::simulated(&trial.trial, trial.text.clone()), || watch.has_changed());
+            #[cfg(feature = "live")]
+            let mut page = live.as_ref().map(page).transpose()?;
+            #[cfg(not(feature = "live"))]
+            let mut page = ();
+            let finished = run_printed(&trial.trial, &mut page, &watch)?;
+            #[cfg(feature = "live")]
+            if let Some(page) = page {
+                page.finish(&finished.run);
             }
-            run_printed(&trial.trial, &mut (), &watch)
+            Ok(finished)
         };
         match trials.and_then(|trials| run_all(&trials, arguments, &mut files, run)) {
             Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,

@@ -15,7 +15,7 @@ use super::hub::Hub;
 use super::log::RunLog;
 use super::message::{History, PageMessage, Piece, ServerMessage, Ticks};
 use super::socket::Socket;
-use super::watcher::with_breakpoint;
+use super::watcher::breakpoints_with;
 
 /// The largest number of ticks in a message. Of more that are new, the oldest are lost.
 const BATCH: usize = 120;
@@ -68,12 +68,14 @@ impl Page {
                 self.receive(&message)?;
             }
             self.send_run()?;
-            if self.socket.is_ready() {
-                self.send_answers()?;
-                self.send_ticks()?;
+            if !self.socket.is_ready() {
+                continue;
             }
-            // After the ticks, so that a page that is told of a breakpoint has its tick.
-            if let Some((version, status)) = self.hub.status(self.status) {
+            self.send_answers()?;
+            // A page that is told of a pause has all ticks before it.
+            let status = self.hub.status(self.status);
+            self.send_ticks()?;
+            if let Some((version, status)) = status {
                 self.status = Some(version);
                 self.send(&ServerMessage::Status(status))?;
             }
@@ -172,7 +174,7 @@ impl Page {
         };
         let mut texts = self.hub.breakpoints().texts;
         texts.retain(|text| Some(text.as_str()) != remove);
-        if let Some(add) = add
+        if let Some(add) = add.clone()
             && !texts.contains(&add)
         {
             texts.push(add);
@@ -180,7 +182,7 @@ impl Page {
         if texts.len() > BREAKPOINTS {
             return self.refuse(format!("there are {BREAKPOINTS} breakpoints; remove some of them"), None);
         }
-        match with_breakpoint(source, &texts) {
+        match breakpoints_with(source, &texts, add.as_ref()) {
             Ok(infos) => {
                 self.hub.set_breakpoints(texts, infos);
                 Ok(())

@@ -75,11 +75,12 @@ struct Answer<'l, S> {
 impl<S: FnMut(Piece) -> bool> Answer<'_, S> {
     /// Adds a tick. `before` is that of the run, if it has one. The result is false if nobody waits for the answer.
     fn push(&mut self, frame: CounterfactualFrame, before: Option<&TickResult>, after: &TickResult) -> bool {
-        if self.first.is_none()
+        // Where the states differ is of more interest, so it replaces the first difference of the commands.
+        if self.first.as_ref().is_none_or(|first| !first.states_differ)
             && let Some(before) = before
         {
             let states_differ = before.state != after.state;
-            if states_differ || bits(before.command) != bits(after.command) {
+            if states_differ || (self.first.is_none() && bits(before.command) != bits(after.command)) {
                 let [was, is] = [before, after].map(|result| self.log.phrase(result));
                 let (tick, time) = (frame.tick, frame.time);
                 self.first = Some(FirstDifference { tick, time, states_differ, before: was, after: is });
@@ -126,7 +127,7 @@ impl Taken {
     }
 }
 
-/// The changed policy has the recorded samples. Its commands move nothing, so perception is told the recorded ones.
+/// The changed policy has the recorded samples. Its commands move nothing, so perception is given the recorded ones.
 fn recorded<S: FnMut(Piece) -> bool>(question: &Question, mut answer: Answer<'_, S>) -> Result<(), String> {
     let log = answer.log;
     let checkpoint = log.past().checkpoint(question.tick);

@@ -56,7 +56,6 @@ impl Frames {
         let messages = trace.messages.iter().rev().take_while(|message| message.tick == index);
         let mut messages: Vec<String> = messages.map(|message| message.message.text.to_string()).collect();
         messages.reverse();
-        let mean = |(sum, count): (f64, usize)| (count > 0).then(|| sum / count as f64);
         let Point2 { coords } = tick.body.position;
         Some(Frame {
             tick: index,
@@ -68,10 +67,23 @@ impl Frames {
             taken: shadow.taken(numbers),
             command: [tick.command.velocity_world.x, tick.command.velocity_world.y, tick.command.yaw_rate],
             contour,
-            metrics: Metrics { error: mean(self.errors), coverage: self.coverage, spread: mean(self.spreads) },
+            metrics: self.metrics(),
             timing,
             messages,
         })
+    }
+
+    /// The figures of the contour until now.
+    fn metrics(&self) -> Metrics {
+        let mean = |(sum, count): (f64, usize)| (count > 0).then(|| sum / count as f64);
+        Metrics { error: mean(self.errors), coverage: self.coverage, spread: mean(self.spreads) }
+    }
+
+    /// The figures of a whole run.
+    pub(super) fn final_metrics(&mut self, trace: &Trace) -> Metrics {
+        self.next_coverage = Instant::now();
+        self.update_coverage(trace);
+        self.metrics()
     }
 
     /// The recorded tips of a tick.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::log::RunLog;
-use super::message::{BreakpointInfo, Status};
+use super::message::{BreakpointInfo, Metrics, Status};
 
 /// While a run waits, it looks this often whether it has to end.
 const LOOK: Duration = Duration::from_millis(20);
@@ -32,6 +32,7 @@ struct Shared {
     reason: Option<String>,
     breakpoint: Option<String>,
     verdict: Option<String>,
+    metrics: Option<Metrics>,
     breakpoints: Breaks,
     /// It grows with every change of the status.
     version: u64,
@@ -104,7 +105,8 @@ impl Hub {
         shared.runs += 1;
         shared.run = Some(run);
         shared.mode = if is_paused { Mode::Paused } else { Mode::Running };
-        (shared.reason, shared.breakpoint, shared.verdict) = (is_paused.then(|| "start".to_owned()), None, None);
+        (shared.breakpoint, shared.verdict, shared.metrics) = (None, None, None);
+        shared.reason = is_paused.then(|| "start".to_owned());
         shared.version += 1;
         self.changed.notify_all();
     }
@@ -131,6 +133,7 @@ impl Hub {
             reason: shared.reason.clone(),
             breakpoint: shared.breakpoint.clone(),
             verdict: shared.verdict.clone(),
+            metrics: shared.metrics,
             breakpoints: shared.breakpoints.infos.clone(),
             ..Status::default()
         };
@@ -173,9 +176,10 @@ impl Hub {
         self.change(Mode::Stepping(ticks.max(1)), None, None);
     }
 
-    /// Ends the run with its outcome.
-    pub(super) fn finish(&self, verdict: &str, reason: Option<String>) {
+    /// Ends the run with its outcome and the figures of its contour.
+    pub(super) fn finish(&self, verdict: &str, reason: Option<String>, metrics: Metrics) {
         let mut shared = self.shared();
+        shared.metrics = Some(metrics);
         (shared.mode, shared.breakpoint) = (Mode::Finished, None);
         (shared.verdict, shared.reason) = (Some(verdict.to_owned()), reason);
         shared.version += 1;

@@ -54,8 +54,10 @@ impl Live {
         let hub = Arc::new(Hub::default());
         hub.set_breakpoints(breakpoints, Vec::new());
         let bound = serve(address, |address| Access { address, token: token.clone() }, &hub)?;
+        // All addresses of this machine are served, and this one is always among them.
+        let shown = if bound.ip().is_unspecified() { (Ipv4Addr::LOCALHOST, bound.port()).into() } else { bound };
         let query = token.map_or_else(String::new, |token| format!("?token={}", token.text()));
-        Ok(Self { hub, url: format!("http://{bound}/{query}"), is_paused, speed })
+        Ok(Self { hub, url: format!("http://{shown}/{query}"), is_paused, speed })
     }
 
     /// The URL of the page.

@@ -253,3 +253,45 @@ fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
     }
     kept
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::live::message::{ContourFrame, Metrics};
+    use proptest::prelude::*;
+
+    fn frame(tick: usize, tips: usize) -> Arc<Frame> {
+        let tip =
+            |number: usize| ContourFrame { whisker: number, point: [tick as f64, 0.0], spread: None, error: None };
+        Arc::new(Frame {
+            tick,
+            time: 0.0,
+            states: Vec::new(),
+            pose: [0.0; 3],
+            whiskers: Vec::new(),
+            guards: Vec::new(),
+            taken: Vec::new(),
+            command: [0.0; 3],
+            contour: (0..tips).map(tip).collect(),
+            metrics: Metrics::default(),
+            timing: None,
+            messages: Vec::new(),
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn thinned_ticks_have_all_recorded_tips_in_their_order(
+            tips in prop::collection::vec(0..4_usize, 0..60), every in 1..9_usize,
+        ) {
+            let frames: Vec<_> = tips.iter().enumerate().map(|(tick, &tips)| frame(tick, tips)).collect();
+            let kept = thinned(&frames, every);
+            let all = |frames: &[Arc<Frame>]| frames.iter().flat_map(|frame| frame.contour.clone()).collect::<Vec<_>>();
+            prop_assert_eq!(all(&kept), all(&frames));
+            prop_assert_eq!(kept.last().map(|frame| frame.tick), frames.last().map(|frame| frame.tick));
+            prop_assert!(kept.len() <= frames.len().div_ceil(every) + 1);
+            let mut earlier = kept.iter().rev().skip(1);
+            prop_assert!(earlier.all(|frame| frame.tick % every == 0));
+        }
+    }
+}

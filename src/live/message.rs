@@ -333,6 +333,8 @@ pub(super) struct Status {
     pub(super) breakpoint: Option<String>,
     /// The outcome: `completed`, `timeout`, `failed` or `diverged`.
     pub(super) verdict: Option<String>,
+    /// The figures of the whole contour, after the end of the run.
+    pub(super) metrics: Option<Metrics>,
     /// Number of ticks until now.
     pub(super) ticks: usize,
     /// The program keeps every tick whose index is a multiple of this, and the newest ones.
@@ -361,7 +363,7 @@ pub(super) struct Piece {
     pub(super) kind: CounterfactualKind,
     /// The ticks, oldest first.
     pub(super) frames: Vec<CounterfactualFrame>,
-    /// The first tick in which states or commands differ from those of the run, if it is in this piece or before.
+    /// The first tick in which the states differ from those of the run. Until there is one, the first tick in which the commands do.
     pub(super) first_difference: Option<FirstDifference>,
     /// True for the last piece.
     pub(super) done: bool,

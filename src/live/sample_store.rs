@@ -9,7 +9,7 @@ const AXIAL: u8 = 2;
 const TRUE_TIP: u8 = 4;
 const TOUCHES: u8 = 8;
 
-/// The samples of a run, tick by tick. A [`Sample`] has room for the largest rig, and this has only what the rig measures.
+/// The samples of a run, tick by tick. A [`Sample`] has the size of the largest rig, and this has only what the rig measures.
 #[derive(Debug, Default)]
 pub(super) struct SampleStore {
     /// Number of whiskers of the rig.

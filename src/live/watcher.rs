@@ -16,7 +16,7 @@ use super::log::{Executed, RunLog, TickResult};
 use super::message::{BreakpointInfo, Timing};
 use super::setup::RunSetup;
 use super::shadow::Shadow;
-use crate::diagnostic::Source;
+use crate::diagnostic::{Diagnostic, Source};
 use crate::inspect::Breakpoints;
 use crate::recording::RecordedFrame;
 use crate::run::{Run, Trace, Watcher};
@@ -35,6 +35,8 @@ pub struct LiveWatcher<'i> {
     last_tick: Option<Instant>,
     /// True if a paused run has to end.
     is_over: Box<dyn FnMut() -> bool + 'i>,
+    /// True if it had to end before its first tick.
+    has_to_end: bool,
 }
 
 impl<'i> LiveWatcher<'i> {
@@ -72,13 +74,15 @@ impl<'i> LiveWatcher<'i> {
             began_tick: Instant::now(),
             last_tick: None,
             is_over: Box::new(is_over),
+            has_to_end: false,
         };
         Ok((watcher, faults))
     }
 
     /// Tells the page the outcome of the run.
-    pub fn finish(self, run: &Run) {
-        self.hub.finish(run.outcome.name(), run.reason.clone());
+    pub fn finish(mut self, run: &Run) {
+        let metrics = self.frames.final_metrics(&run.trace);
+        self.hub.finish(run.outcome.name(), run.reason.clone(), metrics);
     }
 
     /// Takes new breakpoints over. The control loop that explains guards is then made again, and executes all ticks until now.
@@ -121,15 +125,25 @@ impl<'i> LiveWatcher<'i> {
 /// The explained policy of a run with breakpoints, as far as it has them, and what is wrong with the others.
 fn explained(setup: &RunSetup, texts: &[String]) -> Result<(Option<Arc<Breakpoints>>, Vec<String>), LiveError> {
     let Some(source) = &setup.policy else { return Ok((None, Vec::new())) };
-    let (mut usable, mut faults) = (Vec::new(), Vec::new());
-    for text in texts {
-        match Breakpoints::new(source, std::slice::from_ref(text)) {
-            Ok(_) => usable.push(text.clone()),
-            Err(_) => faults.push(format!("the policy `{}` has no breakpoint `{text}`", setup.program.name)),
-        }
+    let (policy, others) = with_breakpoints(source, texts).map_err(|_| LiveError::Explain)?;
+    let fault = |text: &String| format!("the policy `{}` has no breakpoint `{text}`", setup.program.name);
+    Ok((Some(Arc::new(policy)), others.iter().map(fault).collect()))
+}
+
+/// A policy with breakpoints, as far as it has them, and the texts of the others.
+///
+/// # Errors
+/// Those of a policy that does not compile.
+fn with_breakpoints(source: &Source, texts: &[String]) -> Result<(Breakpoints, Vec<String>), Vec<Diagnostic>> {
+    let all = Breakpoints::new(source, texts);
+    if let Ok(policy) = all {
+        return Ok((policy, Vec::new()));
     }
-    let policy = Breakpoints::new(source, &usable).map_err(|_| LiveError::Explain)?;
-    Ok((Some(Arc::new(policy)), faults))
+    let is_usable = |text: &&String| Breakpoints::new(source, std::slice::from_ref(*text)).is_ok();
+    let (usable, others): (Vec<&String>, Vec<&String>) = texts.iter().partition(is_usable);
+    let usable: Vec<String> = usable.into_iter().cloned().collect();
+    let policy = Breakpoints::new(source, &usable).map_err(|(_, faults)| faults)?;
+    Ok((policy, others.into_iter().cloned().collect()))
 }
 
 /// The control loop that explains guards, at the start of a run.
@@ -149,7 +163,7 @@ impl Watcher for LiveWatcher<'_> {
         self.samples.extend_from_slice(samples);
         if self.log.past().len() == 0 {
             // A run that is to begin later waits here. If it has to end instead, it does so after its first tick.
-            let _ = self.wait(0.0);
+            self.has_to_end = self.wait(0.0).is_break();
         }
         self.began_tick = Instant::now();
     }
@@ -170,7 +184,7 @@ impl Watcher for LiveWatcher<'_> {
         if let Some(breakpoint) = hit {
             self.hub.pause_at(breakpoint);
         }
-        self.wait(time)
+        if self.has_to_end { ControlFlow::Break(()) } else { self.wait(time) }
     }
 }
 
@@ -181,13 +195,19 @@ fn without_ticks(trace: &Trace) -> Trace {
     empty
 }
 
-/// The breakpoints of a policy with another one.
+/// The breakpoints with these texts, as far as a policy has them. It must have the `new` one.
 ///
 /// # Errors
-/// What is wrong with the text, for people.
-pub(super) fn with_breakpoint(source: &Source, texts: &[String]) -> Result<Vec<BreakpointInfo>, String> {
-    match Breakpoints::new(source, texts) {
-        Ok(policy) => Ok(breakpoints(&policy)),
-        Err((_, faults)) => Err(faults.first().map_or_else(String::new, |fault| fault.message.clone())),
+/// What is wrong with the new one, for people.
+pub(super) fn breakpoints_with(
+    source: &Source,
+    texts: &[String],
+    new: Option<&String>,
+) -> Result<Vec<BreakpointInfo>, String> {
+    let fault = |faults: Vec<Diagnostic>| faults.first().map_or_else(String::new, |fault| fault.message.clone());
+    if let Some(new) = new {
+        Breakpoints::new(source, std::slice::from_ref(new)).map_err(|(_, faults)| fault(faults))?;
     }
+    let (policy, _) = with_breakpoints(source, texts).map_err(fault)?;
+    Ok(breakpoints(&policy))
 }

@@ -86,7 +86,9 @@ impl View {
     pub(super) fn whiskers(&self, tick: &TickRecord) -> SceneUpdate {
         let shafts = self.whiskers.iter().enumerate().filter_map(|(index, &in_rig)| {
             let whisker = self.rig.whiskers.get(in_rig)?;
-            let tip = tick.body.point_from_world(tick.tip_ends[index]?);
+            // A replay knows no true tips.
+            let tip_world = tick.tip_ends[index].filter(|tip| tip.coords.iter().all(|part| part.is_finite()))?;
+            let tip = tick.body.point_from_world(tip_world);
             Some(line(&shaft_points(whisker, tick.deflections[index], tip), false, 1.5e-3, WHISKER))
         });
         update("whiskers", BODY, tick.time, shafts.collect())

@@ -63,6 +63,7 @@ fn over_a_recording_it_differs_where_a_replay_of_the_changed_policy_does() {
     let (frames, last) = page.ask(&ask(0, 1, 0.04));
     assert_eq!((frames.len(), &last["end"]), (750, &"end of the run".into()));
     assert_eq!(last["first_difference"]["tick"], oracle["first"]["tick"], "{oracle}");
+    assert_eq!(last["first_difference"]["states_differ"], false, "this policy leaves no state because of its speed");
     // A later change shows from its tick on.
     let (frames, last) = page.ask(&ask(300, 2, 0.04));
     assert_eq!((frames.len(), &frames[0]["tick"]), (450, &300.into()));
@@ -115,6 +116,7 @@ fn a_changed_threshold_acts_as_the_changed_text() {
             page.ask(&json!({"type": "counterfactual", "id": id, "tick": 0, "kind": "recorded", "set": {name: value}}));
         assert!(last["first_difference"]["tick"].is_u64(), "{last}");
         assert_eq!(last["first_difference"]["tick"], oracle["first"]["tick"], "{to}: {oracle}");
+        assert_eq!(last["first_difference"]["states_differ"], true, "{to}");
         // A change at a later tick before the difference leads to the same one.
         let (_, later) = page.ask(
             &json!({"type": "counterfactual", "id": id + 100, "tick": 20, "kind": "recorded", "set": {name: value}}),

@@ -13,14 +13,15 @@ use tungstenite::client::IntoClientRequest;
 use tungstenite::protocol::WebSocket;
 use tungstenite::{Message, client};
 
-pub(super) const SCENE: &str = "name: scene\nworld: quasistatic\nobjects: [{rounded_rectangle: {centre: [26 cm, 30 cm], width: 30 cm, height: \
-    20 cm, corner_radius: 0 mm}}]\nstart: {position: [0 mm, 72 mm], heading: 90 deg}\nstop: {time: 25 s}\n\
-    rig: {sensing: {angle_noise: 0.5 urad}}\n";
+pub(super) const SCENE: &str = "name: scene\nworld: quasistatic\nobjects: [{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]\n\
+    start: {position: [0 mm, 72 mm], heading: 90 deg}\nstop: {time: 25 s}\nrig: {sensing: {angle_noise: 0.5 urad}}\n";
 
 /// A program that is ended with the test.
 pub(super) struct Session {
     child: Child,
-    lines: Receiver<String>,
+    /// What it prints to its standard output and to its standard error.
+    out: Receiver<String>,
+    told: Receiver<String>,
     /// The URL of the page.
     pub(super) url: String,
 }
@@ -31,20 +32,16 @@ impl Session {
         let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
         command.args(words).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
-        let (sender, lines) = channel();
-        let (out, told) = (child.stdout.take().unwrap(), child.stderr.take().unwrap());
-        let from_told = sender.clone();
-        thread::spawn(move || BufReader::new(out).lines().try_for_each(|line| sender.send(line.unwrap())));
-        thread::spawn(move || BufReader::new(told).lines().try_for_each(|line| from_told.send(line.unwrap())));
-        let mut session = Self { child, lines, url: String::new() };
+        let (out, told) = (lines(child.stdout.take().unwrap()), lines(child.stderr.take().unwrap()));
+        let mut session = Self { child, out, told, url: String::new() };
         session.url = session.until("live page: ").split_once("live page: ").unwrap().1.to_owned();
         session
     }
 
-    /// Reads what the program prints until a line has `text` in it.
+    /// Reads the messages of the program until a line has `text` in it.
     pub(super) fn until(&self, text: &str) -> String {
         loop {
-            let line = self.lines.recv().unwrap_or_else(|_| panic!("the program ended before it printed {text:?}"));
+            let line = self.told.recv().unwrap_or_else(|_| panic!("the program ended before it printed {text:?}"));
             if line.contains(text) {
                 return line;
             }
@@ -55,12 +52,8 @@ impl Session {
     pub(super) fn json(&self) -> Value {
         let mut text = String::new();
         loop {
-            text += &self.lines.recv().unwrap();
-            text.push('\n');
-            // Messages on the standard error are no JSON.
-            let start = text.find(['[', '{']).unwrap_or(text.len());
-            let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<Value>();
-            if let Some(Ok(value)) = values.next() {
+            text += &self.out.recv().unwrap();
+            if let Ok(value) = serde_json::from_str(&text) {
                 return value;
             }
         }
@@ -100,6 +93,13 @@ impl Session {
         assert_eq!(hello["type"], "hello", "{hello}");
         (viewer, hello)
     }
+}
+
+/// The lines of a stream.
+fn lines(stream: impl Read + Send + 'static) -> Receiver<String> {
+    let (sender, lines) = channel();
+    thread::spawn(move || BufReader::new(stream).lines().try_for_each(|line| sender.send(line.unwrap())));
+    lines
 }
 
 impl Drop for Session {
