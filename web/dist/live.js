@@ -1399,11 +1399,10 @@
     values.forEach(include);
     const reach = 3 * Math.max(Math.abs(low), Math.abs(high));
     levels.filter((level) => !(Math.abs(level) > reach)).forEach(include);
-    if (!(low <= high)) {
-      return [0, 1];
+    if (low < high) {
+      return [low, high];
     }
-    const room = low === high ? Math.abs(low) * 0.1 || 1e-6 : 0;
-    return [low - room, high + room];
+    return low === high && low !== 0 ? [Math.min(0, low), Math.max(0, low)] : [0, 1];
   }
   function pathOf(curve2, y) {
     let isDown = false;

@@ -170,6 +170,7 @@ export class ChartPanel implements Panel {
     }
     const items = node.transitions.map((transition) => {
       const target = run.chart.target(transition);
+      // The guards of a compiled machine have no text.
       return element("li", "", element("code", "", transition.text), ` → ${typeof target === "string" ? target : target.fullName}`);
     });
     this.#list.replaceChildren(element("div", "head", title, tools), node.behaviour === undefined ? "" : element("p", "hint", element("code", "", `is ${node.behaviour}`)), element("ul", "", ...items));

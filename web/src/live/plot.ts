@@ -190,11 +190,11 @@ function extent(values: readonly number[], levels: readonly number[]): [number, 
   values.forEach(include);
   const reach = 3 * Math.max(Math.abs(low), Math.abs(high));
   levels.filter((level) => !(Math.abs(level) > reach)).forEach(include);
-  if (!(low <= high)) {
-    return [0, 1];
+  if (low < high) {
+    return [low, high];
   }
-  const room = low === high ? Math.abs(low) * 0.1 || 1e-6 : 0;
-  return [low - room, high + room];
+  // A constant is seen beside zero.
+  return low === high && low !== 0 ? [Math.min(0, low), Math.max(0, low)] : [0, 1];
 }
 
 function pathOf(curve: readonly ([number, number] | null)[], y: (value: number) => number): string {
