@@ -167,7 +167,7 @@ const recorder = spawn(program, ["run", "scenarios/disk.yaml", "--policy", "poli
 await once(recorder, "exit");
 await serve(["replay", recording, "--live-speed", "max", "--live"], (address) =>
   open(address, "light", 1600, async (page) => {
-    await expectStatus(page, /finished/);
+    await expectStatus(page, /finished: completed, error .* um, coverage [\d.]+ %/);
     await tabTo(page, ".slider");
     await page.keyboard.press("Home");
     await expectTick(page, 0);
