@@ -73,7 +73,8 @@ impl Page {
             }
             self.send_answers()?;
             // A page that is told of a pause has all ticks before it.
-            let status = self.hub.status(self.status);
+            let number = self.run.as_ref().map(|(number, _)| *number);
+            let status = number.and_then(|number| self.hub.status(number, self.status));
             self.send_ticks()?;
             if let Some((version, status)) = status {
                 self.status = Some(version);
@@ -155,7 +156,7 @@ impl Page {
                 let frames = log.past().range(from, to, most.unwrap_or(RANGE).min(RANGE_LIMIT));
                 self.send(&ServerMessage::History(History { from, to, frames }))
             }
-            PageMessage::Break { add, remove } => self.change_breakpoints(&log, add, remove.as_deref()),
+            PageMessage::Break { add, remove } => self.change_breakpoints(&log, add.as_ref(), remove.as_deref()),
             PageMessage::Counterfactual { id, tick, kind, set } => {
                 self.ask(log, Question { id, tick, kind, values: set })
             }
@@ -168,21 +169,21 @@ impl Page {
         }
     }
 
-    fn change_breakpoints(&mut self, log: &RunLog, add: Option<String>, remove: Option<&str>) -> Result<(), Error> {
+    fn change_breakpoints(&mut self, log: &RunLog, add: Option<&String>, remove: Option<&str>) -> Result<(), Error> {
         let Some(source) = &log.policy else {
             return self.refuse("this run has no breakpoints, because its policy has no text", None);
         };
         let mut texts = self.hub.breakpoints().texts;
         texts.retain(|text| Some(text.as_str()) != remove);
-        if let Some(add) = add.clone()
-            && !texts.contains(&add)
+        if let Some(add) = add
+            && !texts.contains(add)
         {
-            texts.push(add);
+            texts.push(add.clone());
         }
         if texts.len() > BREAKPOINTS {
             return self.refuse(format!("there are {BREAKPOINTS} breakpoints; remove some of them"), None);
         }
-        match breakpoints_with(source, &texts, add.as_ref()) {
+        match breakpoints_with(source, &texts, add) {
             Ok(infos) => {
                 self.hub.set_breakpoints(texts, infos);
                 Ok(())

@@ -117,13 +117,13 @@ impl Hub {
         shared.run.clone().map(|run| (shared.runs, run))
     }
 
-    /// The status, if it is newer than `known`, with its version.
-    pub(super) fn status(&self, known: Option<u64>) -> Option<(u64, Status)> {
+    /// The status of the run with this number, if it is newer than `known`, with its version. `None` if there is another run.
+    pub(super) fn status(&self, number: u64, known: Option<u64>) -> Option<(u64, Status)> {
         let shared = self.shared();
-        if known == Some(shared.version) {
+        if known == Some(shared.version) || shared.runs != number {
             return None;
         }
-        let (version, run) = (shared.version, shared.run.clone());
+        let (version, run) = (shared.version, shared.run.clone()?);
         let mut status = Status {
             state: match shared.mode {
                 Mode::Running | Mode::Stepping(_) => "running",
@@ -138,10 +138,9 @@ impl Hub {
             ..Status::default()
         };
         drop(shared);
-        if let Some(run) = run {
-            let past = run.past();
-            (status.ticks, status.kept_every) = (past.len(), past.kept_every());
-        }
+        let past = run.past();
+        (status.ticks, status.kept_every) = (past.len(), past.kept_every());
+        drop(past);
         Some((version, status))
     }
 

@@ -80,6 +80,7 @@ pub(super) struct Hello {
 
 /// What the page may ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "a page may ask for each of them alone")]
 pub(super) struct Capabilities {
     /// `pause`, `run` and `step`.
     pub(super) step: bool,

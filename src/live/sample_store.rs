@@ -110,7 +110,9 @@ mod tests {
                 let body = Pose { position: Point2::new(time, -time), heading: 2.0 * time };
                 Sample { time, body, whiskers }
             }).collect()).collect();
-            ticks.iter().for_each(|samples| store.push(samples));
+            for samples in &ticks {
+                store.push(samples);
+            }
             prop_assert_eq!(store.ticks(), ticks.len());
             for (tick, samples) in ticks.iter().enumerate() {
                 prop_assert_eq!(&store.get(tick), samples);

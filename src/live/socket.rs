@@ -15,23 +15,23 @@ const IN_FLIGHT: u64 = 2;
 
 /// A WebSocket. Each batch is followed by a ping, and the viewer's pong confirms it.
 pub(super) struct Socket {
-    socket: WebSocket<TcpStream>,
+    inner: WebSocket<TcpStream>,
     sent: u64,
     confirmed: u64,
 }
 
 impl Socket {
     /// A socket after its handshake.
-    pub(super) fn new(socket: WebSocket<TcpStream>) -> Result<Self, Error> {
-        socket.get_ref().set_read_timeout(Some(LOOK))?;
-        Ok(Self { socket, sent: 0, confirmed: 0 })
+    pub(super) fn new(inner: WebSocket<TcpStream>) -> Result<Self, Error> {
+        inner.get_ref().set_read_timeout(Some(LOOK))?;
+        Ok(Self { inner, sent: 0, confirmed: 0 })
     }
 
     /// The next message of the viewer. `None` if there is none for a short time.
     pub(super) fn receive(&mut self) -> Result<Option<Message>, Error> {
         let until = Instant::now() + LOOK;
         loop {
-            match self.socket.read() {
+            match self.inner.read() {
                 Ok(Message::Pong(number)) => {
                     let number = <[u8; 8]>::try_from(number.as_ref()).map(u64::from_be_bytes);
                     self.confirmed = self.confirmed.max(number.unwrap_or(0).min(self.sent));
@@ -57,12 +57,12 @@ impl Socket {
 
     /// Sends a message.
     pub(super) fn send(&mut self, message: Message) -> Result<(), Error> {
-        self.socket.send(message)
+        self.inner.send(message)
     }
 
     /// Asks the viewer to confirm everything until now.
     pub(super) fn end_batch(&mut self) -> Result<(), Error> {
         self.sent += 1;
-        self.socket.send(Message::Ping(Bytes::copy_from_slice(&self.sent.to_be_bytes())))
+        self.inner.send(Message::Ping(Bytes::copy_from_slice(&self.sent.to_be_bytes())))
     }
 }

@@ -1,5 +1,7 @@
 //! The token that a page has to know if it is not served to this machine alone.
 
+use data_encoding::HEXLOWER;
+
 use super::error::LiveError;
 
 /// Number of random bytes of a generated token.
@@ -17,7 +19,7 @@ impl Token {
     pub(super) fn random() -> Result<Self, LiveError> {
         let mut bytes = [0; LENGTH];
         getrandom::fill(&mut bytes).map_err(|cause| LiveError::Random(cause.to_string()))?;
-        Ok(Self(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+        Ok(Self(HEXLOWER.encode(&bytes)))
     }
 
     /// The token that a user gives. It stands in a URL.

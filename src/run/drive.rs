@@ -57,7 +57,9 @@ impl Watcher for () {
 /// Passes everything on to a watcher, if there is one.
 impl<W: Watcher> Watcher for Option<W> {
     fn before_tick(&mut self, samples: &[Sample]) {
-        self.iter_mut().for_each(|watcher| watcher.before_tick(samples));
+        if let Some(watcher) = self {
+            watcher.before_tick(samples);
+        }
     }
 
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {

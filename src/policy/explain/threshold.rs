@@ -74,39 +74,51 @@ impl Explained {
         part: Option<usize>,
         value: f64,
     ) -> Result<(), ThresholdError> {
-        let is_written = written(&self.program);
         let new = Register::try_from(program.initial_registers.len()).map_err(|_| ThresholdError::NoRegister)?;
         match part {
-            Some(part) => {
-                let leaves = self.leaves(transition);
-                let leaf = leaves.get(part).ok_or(ThresholdError::NoConstant)?;
-                let (old, _) = self.constant(leaf, &is_written).ok_or(ThresholdError::NoConstant)?;
-                let code = guard(program, transition).map(|guard| guard.code().clone()).unwrap_or_default();
-                let code = program.code.get_mut(code.start as usize..code.end as usize).unwrap_or_default();
-                for op in code.iter_mut().filter(|op| op.bool_result() == Some(leaf.truth)) {
-                    if let Op::Less { a, b, .. } | Op::LessOrEqual { a, b, .. } = op {
-                        for operand in [a, b].into_iter().filter(|operand| **operand == old) {
-                            *operand = new;
-                        }
-                    }
-                }
-            }
-            None => {
-                let all = transition.state.map_or(Some(&mut program.always), |state| {
-                    program.states.get_mut(state).map(|state| &mut state.transitions)
-                });
-                let guard = all.and_then(|all| all.get_mut(transition.index)).map(|one| &mut one.guard);
-                let time = match guard {
-                    Some(Guard::When { lasting: Some((time, _)), .. } | Guard::After { time, .. }) => time,
-                    _ => return Err(ThresholdError::NoConstant),
-                };
-                if !self.is_constant(*time, &is_written) {
-                    return Err(ThresholdError::NoConstant);
-                }
-                *time = new;
-            }
+            Some(part) => self.compare_with(program, (transition, part), new)?,
+            None => self.wait_for(program, transition, new)?,
         }
         program.initial_registers.push(value);
+        Ok(())
+    }
+
+    /// Lets a part of a guard compare with another register than that of its constant.
+    fn compare_with(
+        &self,
+        program: &mut Program,
+        (transition, part): (TransitionId, usize),
+        new: Register,
+    ) -> Result<(), ThresholdError> {
+        let leaves = self.leaves(transition);
+        let leaf = leaves.get(part).ok_or(ThresholdError::NoConstant)?;
+        let (old, _) = self.constant(leaf, &written(&self.program)).ok_or(ThresholdError::NoConstant)?;
+        let code = guard(program, transition).map(|guard| guard.code().clone()).unwrap_or_default();
+        let code = program.code.get_mut(code.start as usize..code.end as usize).unwrap_or_default();
+        for op in code.iter_mut().filter(|op| op.bool_result() == Some(leaf.truth)) {
+            if let Op::Less { a, b, .. } | Op::LessOrEqual { a, b, .. } = op {
+                for operand in [a, b].into_iter().filter(|operand| **operand == old) {
+                    *operand = new;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets a guard take its time from another register than that of its constant.
+    fn wait_for(&self, program: &mut Program, transition: TransitionId, new: Register) -> Result<(), ThresholdError> {
+        let all = match transition.state {
+            None => Some(&mut program.always),
+            Some(state) => program.states.get_mut(state).map(|state| &mut state.transitions),
+        };
+        let guard = all.and_then(|all| all.get_mut(transition.index)).map(|one| &mut one.guard);
+        let Some(Guard::When { lasting: Some((time, _)), .. } | Guard::After { time, .. }) = guard else {
+            return Err(ThresholdError::NoConstant);
+        };
+        if !self.is_constant(*time, &written(&self.program)) {
+            return Err(ThresholdError::NoConstant);
+        }
+        *time = new;
         Ok(())
     }
 
@@ -150,7 +162,9 @@ fn written(program: &Program) -> Vec<bool> {
     for op in &program.code {
         for span in op.operands().writes {
             for register in span.registers() {
-                is_written.get_mut(register).into_iter().for_each(|written| *written = true);
+                if let Some(written) = is_written.get_mut(register) {
+                    *written = true;
+                }
             }
         }
     }

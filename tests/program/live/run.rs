@@ -66,7 +66,8 @@ fn a_page_gets_the_run_from_its_beginning_to_its_outcome() {
 #[test]
 fn a_stalled_viewer_loses_ticks_and_the_run_none() {
     let folder = folder("live-stalled");
-    let words = [&RUN[..], &["--paused", "--live-speed", "max", "--ticks", "live.jsonl"]].concat();
+    let words =
+        [&RUN[..], &["--paused", "--live-speed", "max", "--ticks", "live.jsonl", "--record", "live.mcap"]].concat();
     let session = Session::start(&folder, &words);
     let (mut stalled, _) = session.page();
     let (mut page, _) = session.page();
@@ -85,6 +86,8 @@ fn a_stalled_viewer_loses_ticks_and_the_run_none() {
     assert_eq!(without_times(shown), without_times(plain));
     session.until("Ctrl-C");
     assert_eq!(fs::read_to_string(folder.join("live.jsonl")).unwrap(), fs::read_to_string(plain_ticks).unwrap());
+    let replayed = vibrissa(&["replay", folder.join("live.mcap").to_str().unwrap()]);
+    assert_eq!(replayed.status.code(), Some(0), "a run on the page is recorded as any other");
 }
 
 #[test]

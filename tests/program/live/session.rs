@@ -34,7 +34,8 @@ impl Session {
         let mut child = command.spawn().unwrap();
         let (out, told) = (lines(child.stdout.take().unwrap()), lines(child.stderr.take().unwrap()));
         let mut session = Self { child, out, told, url: String::new() };
-        session.url = session.until("live page: ").split_once("live page: ").unwrap().1.to_owned();
+        let line = session.until("live page: ");
+        line.split_once("live page: ").unwrap().1.clone_into(&mut session.url);
         session
     }
 
@@ -80,7 +81,7 @@ impl Session {
         request.headers_mut().insert("Sec-WebSocket-Protocol", protocol.parse().unwrap());
         let stream = TcpStream::connect(self.host()).unwrap();
         // A test that waits for a message that never comes fails, and does not hang.
-        stream.set_read_timeout(Some(Duration::from_secs(300))).unwrap();
+        stream.set_read_timeout(Some(Duration::from_mins(5))).unwrap();
         let (socket, answer) = client(request, stream).unwrap();
         assert_eq!(answer.headers()["Sec-WebSocket-Protocol"], protocol);
         Viewer { socket }

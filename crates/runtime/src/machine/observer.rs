@@ -33,19 +33,27 @@ impl Observer for () {}
 /// Passes everything on to an observer, if there is one.
 impl<O: Observer> Observer for Option<O> {
     fn guard(&mut self, tried: &TriedGuard<'_>) {
-        self.iter_mut().for_each(|observer| observer.guard(tried));
+        if let Some(observer) = self {
+            observer.guard(tried);
+        }
     }
 
     fn taken(&mut self, transition: TransitionId) {
-        self.iter_mut().for_each(|observer| observer.taken(transition));
+        if let Some(observer) = self {
+            observer.taken(transition);
+        }
     }
 
     fn violated(&mut self, violated: &ViolatedContract<'_>) {
-        self.iter_mut().for_each(|observer| observer.violated(violated));
+        if let Some(observer) = self {
+            observer.violated(violated);
+        }
     }
 
     fn not_finite(&mut self, state: usize, registers: &[f64]) {
-        self.iter_mut().for_each(|observer| observer.not_finite(state, registers));
+        if let Some(observer) = self {
+            observer.not_finite(state, registers);
+        }
     }
 }
 
