@@ -80,6 +80,8 @@
 //! | feature | default | adds |
 //! |---|---|---|
 //! | `sim` | yes | the MuJoCo simulator. It needs MuJoCo's library, which `cargo x setup` installs into a checkout |
+//! | `recording` | yes | recordings of runs as MCAP files, and their replay |
+//! | `live` | yes | a page that shows a run while it happens |
 //! | `lsp` | no | the command `vibrissa lsp`, a language server for editors |
 //! | `outlines` | no | outlines from SVG, DXF, CSV and STL files |
 //!
@@ -115,6 +117,8 @@ pub mod family;
 mod file;
 pub mod geometry;
 pub mod inspect;
+#[cfg(feature = "live")]
+pub mod live;
 mod load;
 pub mod mismatch;
 pub mod mujoco;

@@ -1,9 +1,12 @@
-// Bundles each page's script into one file without imports: `node bundle.mjs DIRECTORY`.
+// Bundles each page's script and style sheet into one file each, without imports: `node bundle.mjs DIRECTORY`.
 import { build } from "esbuild";
 
 const [directory] = process.argv.slice(2);
 await build({
-  entryPoints: { report: "src/report/main.ts" },
+  entryPoints: ["report", "live"].flatMap((page) => [
+    { in: `src/${page}/main.ts`, out: page },
+    { in: `src/${page}/page.css`, out: page },
+  ]),
   outdir: directory,
   bundle: true,
   format: "iife",

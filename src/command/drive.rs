@@ -14,6 +14,8 @@ use vibrissa_robot::emulation::{Injection, Settings as EmulationSettings};
 
 use super::exit::Exit;
 use super::failure::Failure;
+#[cfg(feature = "live")]
+use super::live::{LivePage, REAL_TIME, begin, serve_on};
 use super::options::{Format, WorldOptions};
 use super::output;
 use super::run_recording::RunRecording;
@@ -21,6 +23,8 @@ use super::trials::{ReportFiles, inputs, make_directory, report_events};
 use super::values::parse_seed;
 use crate::emulated;
 use crate::file::CommandFiles;
+#[cfg(feature = "live")]
+use crate::live::RunSetup;
 use crate::load::{self, Loaded};
 use crate::report::{faults_table, results_table};
 use crate::results::DriveResult;
@@ -64,6 +68,9 @@ pub(super) struct DriveArguments {
     /// Write a picture and the result into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[cfg(feature = "live")]
+    #[command(flatten)]
+    live: LivePage,
     #[command(flatten)]
     format: Format,
 }
@@ -124,6 +131,8 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         }
         None => (Config::emulated(scene.rig.clone(), settings.noise_microtesla), None),
     };
+    #[cfg(feature = "live")]
+    let text = policy.value.text.map(|text| text.source);
     let artifact = policy.value.artifact;
     let admission = admit(&artifact, &config, &mut Device::instant());
     let Admission { config, slower } =
@@ -155,10 +164,22 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
     let record = |entry: &LoopRecord| recording.iter_mut().for_each(|recording| recording.take(entry));
-    let emulated = emulated::run(&trial, &config, &settings, record).map_err(|cause| {
+    #[cfg(feature = "live")]
+    let live = arguments.live.start(REAL_TIME, &[])?;
+    #[cfg(feature = "live")]
+    let page = |live| begin(live, RunSetup::emulated(&trial, &config.rig, text), || false);
+    #[cfg(feature = "live")]
+    let mut page = live.as_ref().map(page).transpose()?;
+    #[cfg(not(feature = "live"))]
+    let mut page = ();
+    let emulated = emulated::run(&trial, &config, &settings, record, &mut page).map_err(|cause| {
         let scenario = trial.inputs.scenario.clone();
         Failure::Emulated { scenario, cause }
     })?;
+    #[cfg(feature = "live")]
+    if let Some(page) = page {
+        page.finish(&emulated.result.run);
+    }
     if let Some(recording) = recording {
         recording.finish()?;
     }
@@ -178,6 +199,10 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         output::document(arguments.format, &result, || {
             [results_table(std::slice::from_ref(&result.run)), faults_table(&result.faults)]
         })?;
+    }
+    #[cfg(feature = "live")]
+    if let Some(live) = live {
+        serve_on(&live);
     }
     Ok(exit)
 }

@@ -8,6 +8,8 @@ use crate::calibration::MIN_POSITIONS;
 use crate::emulated::EmulatedError;
 use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
+#[cfg(feature = "live")]
+use crate::live::LiveError;
 use crate::load::LoadError;
 use crate::mismatch::MismatchError;
 use crate::policy::chart::UnknownState;
@@ -78,6 +80,23 @@ pub(super) enum Failure {
         "this build has no simulator for the calibration rig; give measured contacts, or build with the feature `sim`"
     )]
     NoCalibrationRig,
+    #[cfg(feature = "live")]
+    #[error(transparent)]
+    Live(#[from] LiveError),
+    #[cfg(feature = "recording")]
+    #[error("--break ends a run before its recording is whole; add --live, whose page shows the breakpoints")]
+    BreakRecord,
+    #[error("--break ends a run, and --watch begins the next one; add --live, whose page shows the breakpoints")]
+    BreakWatch,
+    #[cfg(feature = "live")]
+    #[error(
+        "{}: it is the recording of a robot, which the page cannot show; record a simulated run with `vibrissa run SCENARIO --record FILE`",
+        path.display()
+    )]
+    NoLiveReplay { path: PathBuf },
+    #[cfg(feature = "live")]
+    #[error("{}: the recorded run had another scenario; give the file that it ran", path.display())]
+    OtherScenario { path: PathBuf },
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
     #[error(

@@ -21,12 +21,13 @@ use crate::trial::{ExecuteError, Trial};
 #[derive(Debug, Args)]
 pub(super) struct InspectionOptions {
     /// Stop when a state is entered or a condition holds, and print what each guard is missing: --break Retrieval,
-    /// --break "r0.deflection > 300 urad". Repeatable
-    #[arg(long = "break", value_name = "STATE|CONDITION", conflicts_with = "watch")]
-    breakpoints: Vec<String>,
+    /// --break "r0.deflection > 300 urad". Repeatable. With --live, the run only pauses there
+    #[arg(long = "break", value_name = "STATE|CONDITION")]
+    pub(super) breakpoints: Vec<String>,
     /// Write every transition that is taken into this file, with the parts of all guards, as one line of JSON each. The
     /// violations of contracts follow
-    #[arg(long, value_name = "FILE", conflicts_with = "watch")]
+    #[cfg_attr(feature = "live", arg(long, value_name = "FILE", conflicts_with_all = ["watch", "live"]))]
+    #[cfg_attr(not(feature = "live"), arg(long, value_name = "FILE", conflicts_with = "watch"))]
     transitions: Option<PathBuf>,
 }
 

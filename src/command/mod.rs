@@ -18,6 +18,8 @@ mod fmt;
 mod graph;
 mod inspect;
 mod keep;
+#[cfg(feature = "live")]
+mod live;
 mod lsp;
 mod man;
 mod merge;
@@ -189,7 +191,10 @@ fn carried_out(arguments: &Arguments) -> Exit {
 
 /// Reads the command line. Requests for help and mistakes are answered here. Then the result is the exit status.
 fn arguments() -> Result<Arguments, ExitCode> {
-    Arguments::try_parse().map_err(|answer| {
+    let words = std::env::args_os();
+    #[cfg(feature = "live")]
+    let words = live::joined(words);
+    Arguments::try_parse_from(words).map_err(|answer| {
         // The answer quotes the command line and has its own colours, so control characters are removed before.
         let shown = std::env::args_os().map(|argument| printable(&argument.to_string_lossy()).into_owned());
         let shown = Arguments::try_parse_from(shown).err();

@@ -9,11 +9,15 @@ use vibrissa_robot::recording;
 
 use super::exit::Exit;
 use super::failure::Failure;
+#[cfg(feature = "live")]
+use super::live::{LivePage, Speed, begin, serve_on};
 use super::options::Format;
 use super::output;
 #[cfg(feature = "recording")]
 use super::{diff::explained, inspect::breakpoints};
 use crate::file::CommandFiles;
+#[cfg(feature = "live")]
+use crate::live::{Live, LiveReplay};
 use crate::load::{self, LoadError};
 #[cfg(feature = "recording")]
 use crate::recording::{RunRecording, compare_policies};
@@ -21,6 +25,15 @@ use crate::recording::{RunRecording, compare_policies};
 use crate::report::difference_tables;
 use crate::report::replay_tables;
 use crate::results::ReplayResult;
+#[cfg(feature = "live")]
+use {
+    crate::built_in::SCENARIOS,
+    crate::load::Loaded,
+    crate::scene::{Scene, WorldKind, WorldSetup},
+    crate::trial::{Trial, short_hash},
+    sha2::Digest,
+    std::sync::Arc,
+};
 
 const EXAMPLE: &str = "Examples:\n  vibrissa replay caught.mcap\n  vibrissa replay run.mcap --policy mine.fsm\n\nExit status: 0 every result is bit-identical; 1 a result differs; 2 unusable input; 3 internal error.";
 
@@ -34,8 +47,16 @@ pub(super) struct ReplayArguments {
     /// Give the samples of a recorded run to this policy as well, and report the first tick in which its command differs from that of
     /// the recorded policy
     #[cfg(feature = "recording")]
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(feature = "live", arg(long, value_name = "FILE", conflicts_with = "live"))]
+    #[cfg_attr(not(feature = "live"), arg(long, value_name = "FILE"))]
     policy: Option<PathBuf>,
+    /// Scenario of the recorded run, so that the page knows the objects and can simulate the run again. Those of the bench are known
+    #[cfg(feature = "live")]
+    #[arg(long, value_name = "FILE", requires = "live")]
+    scenario: Option<PathBuf>,
+    #[cfg(feature = "live")]
+    #[command(flatten)]
+    live: LivePage,
     #[command(flatten)]
     format: Format,
 }
@@ -47,7 +68,15 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
     #[cfg(feature = "recording")]
     {
         if let Some(run) = run_recording(named, &mut files)? {
+            #[cfg(feature = "live")]
+            if let Some(live) = arguments.live.start(Speed::Max, &[])? {
+                return show(named, &run, arguments, &mut files, &live);
+            }
             return replay_run(named, &run, arguments, &mut files);
+        }
+        #[cfg(feature = "live")]
+        if arguments.live.is_asked_for() {
+            return Err(Failure::NoLiveReplay { path: named.to_owned() });
         }
         if arguments.policy.is_some() {
             return Err(Failure::OtherPolicy { path: named.to_owned() });
@@ -83,6 +112,57 @@ fn replay_run(
     let difference = compare_policies(run, [&own, &other]).map_err(Failure::run_recording(path))?;
     output::document(arguments.format, &difference, || difference_tables(&difference))?;
     Ok(if difference.first.is_none() { Exit::Done } else { Exit::Unexpected })
+}
+
+/// Replays a simulated run on a page, and compares it then.
+#[cfg(feature = "live")]
+fn show(
+    path: &Path,
+    run: &RunRecording,
+    arguments: &ReplayArguments,
+    files: &mut CommandFiles,
+    live: &Live,
+) -> Result<Exit, Failure> {
+    let replay = LiveReplay::new(run);
+    let known = recorded_trial(run, arguments.scenario.as_deref(), files)?;
+    let mut watcher = begin(live, replay.setup(known), || false)?;
+    let replayed = replay.run(&mut watcher).map_err(|cause| Failure::run_recording(path)(cause.into()))?;
+    if let Some(replayed) = replayed {
+        watcher.finish(&replayed);
+    }
+    replay_run(path, run, arguments, files)?;
+    serve_on(live)
+}
+
+/// The trial of a recording, if its scenario is given or one of the bench. `None` if it is not known.
+#[cfg(feature = "live")]
+fn recorded_trial(
+    run: &RunRecording,
+    given: Option<&Path>,
+    files: &mut CommandFiles,
+) -> Result<Option<Trial>, Failure> {
+    let identity = |key: &str| run.identity().get(key).map_or("", String::as_str);
+    let is_recorded = |loaded: &Loaded<Scene>| short_hash(&loaded.hash.clone().finalize()) == identity("scenario_hash");
+    let loaded = match given {
+        Some(path) => {
+            let loaded = load::scenario(path, files)?;
+            if !is_recorded(&loaded) {
+                return Err(Failure::OtherScenario { path: path.to_owned() });
+            }
+            Some(loaded)
+        }
+        None => SCENARIOS.iter().find_map(|file| load::built_in_scenario(file).ok().filter(is_recorded)),
+    };
+    let Some(Loaded { value: scene, .. }) = loaded else { return Ok(None) };
+    let kinds = [WorldKind::Mujoco, WorldKind::QuasiStatic];
+    let Some(kind) = kinds.into_iter().find(|kind| kind.name() == identity("world")) else { return Ok(None) };
+    let trial = Trial {
+        assumed_rig: run.rig().clone(),
+        seed: identity("seed").parse().unwrap_or(scene.seed),
+        ..Trial::new(scene, Arc::new(run.program().clone()))
+    };
+    let worlds = [true, false].map(|prune| Trial { world: WorldSetup { kind, prune }, ..trial.clone() });
+    Ok(worlds.into_iter().find(|trial| trial.identity().hash.engine == identity("engine_hash")))
 }
 
 /// The first bytes of a file, among which is the record that identifies it.

@@ -10,6 +10,8 @@ use vibrissa_runtime::machine::Artifact;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::inspect::{InspectionOptions, inspect};
+#[cfg(feature = "live")]
+use super::live::{LivePage, REAL_TIME, begin, serve_on};
 use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::reports::Reports;
@@ -18,6 +20,8 @@ use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
+#[cfg(feature = "live")]
+use crate::live::{Live, LiveWatcher, RunSetup};
 use crate::load::GivenMismatch;
 #[cfg(feature = "recording")]
 use crate::recording::Recorder;
@@ -25,8 +29,6 @@ use crate::request::{Input, PolicyInput, TrialRequest};
 use crate::results::tick_lines;
 use crate::run::Run;
 use crate::trial::Trial;
-#[cfg(feature = "recording")]
-use crate::trial::TrialResult;
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -57,10 +59,13 @@ pub(super) struct RunArguments {
     ticks: Option<PathBuf>,
     /// Record the run into this MCAP file, for viewers and for `vibrissa replay`. With one scenario
     #[cfg(feature = "recording")]
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "breakpoints", "transitions"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "transitions"])]
     record: Option<PathBuf>,
     #[command(flatten)]
     pub(super) inspection: InspectionOptions,
+    #[cfg(feature = "live")]
+    #[command(flatten)]
+    pub(super) live: LivePage,
     #[command(flatten)]
     pub(super) format: Format,
     /// Run again whenever a scenario or policy is saved, and print a line for every simulated second
@@ -70,10 +75,21 @@ pub(super) struct RunArguments {
 
 pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
+    #[cfg(feature = "live")]
+    let is_live = arguments.live.is_asked_for();
+    #[cfg(not(feature = "live"))]
+    let is_live = false;
     if arguments.watch {
+        if !arguments.inspection.breakpoints.is_empty() && !is_live {
+            return Err(Failure::BreakWatch);
+        }
         return watch(arguments);
     }
-    if arguments.inspection.is_given() {
+    if arguments.inspection.is_given() && !is_live {
+        #[cfg(feature = "recording")]
+        if arguments.record.is_some() {
+            return Err(Failure::BreakRecord);
+        }
         return inspect(arguments, &mut files);
     }
     let prepared = prepared_trials(arguments, &mut files)?;
@@ -82,16 +98,29 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let trials = prepared.iter().map(|prepared| &prepared.trial);
     let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
     let mut ticks = TickFile::new(arguments, &mut files)?;
+    #[cfg(feature = "live")]
+    let live = arguments.live.start(REAL_TIME, &arguments.inspection.breakpoints)?;
     let mut exit = Exit::Done;
     for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
         #[cfg(feature = "recording")]
-        let finished = match record.take() {
-            Some(file) => recorded(prepared, file)?,
-            None => run_with_bar(trial, &mut ())?,
-        };
+        let (file, recorder) = record.take().map(|file| recorder(prepared, file)).transpose()?.unzip();
         #[cfg(not(feature = "recording"))]
-        let finished = run_with_bar(trial, &mut ())?;
+        let recorder = ();
+        #[cfg(feature = "live")]
+        let page = live.as_ref().map(|live| page(prepared, live)).transpose()?;
+        #[cfg(not(feature = "live"))]
+        let page = ();
+        let mut watcher = (recorder, page);
+        let finished = run_with_bar(trial, &mut watcher)?;
+        #[cfg(feature = "live")]
+        if let Some(page) = watcher.1 {
+            page.finish(&finished.run);
+        }
+        #[cfg(feature = "recording")]
+        if let (Some(file), Some(recorder)) = (file, watcher.0) {
+            file.write(recorder.finish(&finished.run)?)?;
+        }
         reports.add(index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
@@ -100,7 +129,17 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     ticks.write()?;
     reports.show(arguments.format)?;
+    #[cfg(feature = "live")]
+    if let Some(live) = live {
+        serve_on(&live);
+    }
     Ok(exit)
+}
+
+/// The watcher that shows a trial on a page.
+#[cfg(feature = "live")]
+fn page<'i>(prepared: &Prepared, live: &Live) -> Result<LiveWatcher<'i>, Failure> {
+    begin(live, RunSetup::simulated(&prepared.trial, prepared.text.clone()), || false)
 }
 
 /// The file of `--record`, if it is wanted.
@@ -112,14 +151,11 @@ fn record_file(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Opt
     Ok(arguments.record.as_ref().map(|path| files.output("--record", path)).transpose()?)
 }
 
-/// Runs a trial and records it.
+/// The watcher that records a trial into a file.
 #[cfg(feature = "recording")]
-fn recorded(prepared: &Prepared, file: Output) -> Result<TrialResult, Failure> {
+fn recorder(prepared: &Prepared, file: Output) -> Result<(Output, Recorder), Failure> {
     let Prepared { trial, text, artifact } = prepared;
-    let mut recorder = Recorder::new(trial, artifact, text.clone())?;
-    let finished = run_with_bar(trial, &mut recorder)?;
-    file.write(recorder.finish(&finished.run)?)?;
-    Ok(finished)
+    Ok((file, Recorder::new(trial, artifact, text.clone())?))
 }
 
 /// A trial with the policy that it was made from.
@@ -159,13 +195,8 @@ impl TickFile {
     }
 }
 
-/// Prepares all trials of a command line, and prints the warnings of each policy once. An error in the last scenario shows before the first
-/// trial runs.
-pub(super) fn trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Trial>, Failure> {
-    Ok(prepared_trials(arguments, files)?.into_iter().map(|prepared| prepared.trial).collect())
-}
-
-/// The [`trials`], each with its policy.
+/// The trials of a command line, each with its policy. The warnings of each policy are printed once. An error in the last scenario shows
+/// before the first trial runs.
 pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Prepared>, Failure> {
     let mut warned = BTreeSet::new();
     let mismatch = arguments.mismatch.load(files)?;

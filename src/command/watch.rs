@@ -9,15 +9,19 @@ use std::time::{Duration, Instant};
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 
 use crate::file::CommandFiles;
-use crate::run::Trace;
+#[cfg(feature = "live")]
+use crate::live::RunSetup;
+use crate::run::{Trace, Watcher as RunWatcher};
 use crate::score::Statistics;
-use crate::trial::{ExecuteError, Trial};
+use crate::trial::{ExecuteError, Trial, TrialResult};
 
 use super::exit::Exit;
 use super::failure::Failure;
+#[cfg(feature = "live")]
+use super::live::{REAL_TIME, begin};
 use super::output;
 use super::reports::Reports;
-use super::run::{self, RunArguments};
+use super::run::{self, Prepared, RunArguments};
 use super::trials::{make_directory, run_each_second, seconds};
 use crate::load::LoadError;
 
@@ -31,14 +35,31 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
     let first = arguments.scenarios.iter().chain(&arguments.policy);
     watch.add(first.cloned().collect())?;
     make_directory(arguments.out.as_deref())?;
+    #[cfg(feature = "live")]
+    let live = arguments.live.start(REAL_TIME, &arguments.inspection.breakpoints)?;
     loop {
         let mut files = CommandFiles::new();
-        let trials = run::trials(arguments, &mut files);
+        let trials = run::prepared_trials(arguments, &mut files);
         if watch.add(files.inputs().map(Path::to_owned).collect())? {
             // Files that were written to a new folder before it was watched have been missed.
             continue;
         }
-        match trials.and_then(|trials| run_all(&trials, arguments, &mut files, &watch)) {
+        let run = |trial: &Prepared| {
+            #[cfg(feature = "live")]
+            let page =
+                |live| begin(live, RunSetup::simulated(&trial.trial, trial.text.clone()), || watch.has_changed());
+            #[cfg(feature = "live")]
+            let mut page = live.as_ref().map(page).transpose()?;
+            #[cfg(not(feature = "live"))]
+            let mut page = ();
+            let finished = run_printed(&trial.trial, &mut page, &watch)?;
+            #[cfg(feature = "live")]
+            if let Some(page) = page {
+                page.finish(&finished.run);
+            }
+            Ok(finished)
+        };
+        match trials.and_then(|trials| run_all(&trials, arguments, &mut files, run)) {
             Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
             Err(failure) => failure.report(),
             Ok(reports) => reports.show(arguments.format)?,
@@ -49,22 +70,28 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
 }
 
 fn run_all(
-    trials: &[Trial],
+    trials: &[Prepared],
     arguments: &RunArguments,
     files: &mut CommandFiles,
-    watch: &Watch,
+    run: impl Fn(&Prepared) -> Result<TrialResult, Failure>,
 ) -> Result<Reports, Failure> {
-    let mut reports = Reports::new(trials.iter(), arguments.out.as_deref(), files)?;
-    for (index, trial) in trials.iter().enumerate() {
-        let mut printed = Ok(());
-        let finished = run_each_second(trial, &mut (), |trace| {
-            printed = print_second(trial, trace);
-            if printed.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        printed?;
-        reports.add(index, trial, &finished?)?;
+    let mut reports = Reports::new(trials.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), files)?;
+    for (index, prepared) in trials.iter().enumerate() {
+        let finished = run(prepared)?;
+        reports.add(index, &prepared.trial, &finished)?;
     }
     Ok(reports)
+}
+
+/// Runs a trial and prints a line for every simulated second. A change of a file interrupts it.
+fn run_printed(trial: &Trial, watcher: &mut impl RunWatcher, watch: &Watch) -> Result<TrialResult, Failure> {
+    let mut printed = Ok(());
+    let finished = run_each_second(trial, watcher, |trace| {
+        printed = print_second(trial, trace);
+        if printed.is_err() || watch.has_changed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    printed?;
+    finished
 }
 
 /// Prints the state of a run at this second, and the error of the tips since the last line.

@@ -12,7 +12,7 @@ use vibrissa_runtime::machine::Tick;
 use vibrissa_runtime::signal::Command;
 
 use super::world_plant::WorldPlant;
-use crate::run::{Ending, Monitor};
+use crate::run::{Ending, Monitor, Watcher};
 use crate::scene::Outcome;
 use crate::trial::{ExecuteError, Trial, TrialResult};
 
@@ -50,15 +50,16 @@ pub enum EmulatedError {
 }
 
 /// Runs a trial with the robot's own loop under `config`. Control assumes the rig of the configuration. `record` receives
-/// the records of the loop.
+/// the records of the loop. `watcher` receives the samples and the trace after every tick of the machine, and may stop the run.
 ///
 /// # Errors
-/// [`EmulatedError`] if the run cannot begin. The outcome of a run is part of the result.
+/// [`EmulatedError`] if the run cannot begin, or if `watcher` stopped it. The outcome of a run is part of the result.
 pub fn run(
     trial: &Trial,
     config: &Config,
     settings: &Settings,
     mut record: impl FnMut(&LoopRecord),
+    watcher: &mut impl Watcher,
 ) -> Result<EmulatedResult, EmulatedError> {
     let mut plant_trial = trial.clone();
     let sensing = &mut plant_trial.scene.rig.sensing;
@@ -72,7 +73,7 @@ pub fn run(
     let control = Control::new(&config.rig, Arc::clone(&trial.program))?;
     let mut monitor = Monitor::new(&control, &trial.scene.stop, config.rig.sensing.control_rate.recip());
     let mut emulation = Emulation::new(config, control, plant, settings)?;
-    let (mut ending, mut crash) = (None, None);
+    let (mut ending, mut crash, mut is_interrupted) = (None, None, false);
     // The robot may be stopped for good, so the time is limited beside the ticks. Neutral values take a second.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the time of a run")]
     let limit_ns = ((trial.scene.stop.time * 2.0 + 10.0) * 1e9) as u64;
@@ -80,7 +81,9 @@ pub fn run(
         ending = monitor.observe(control, command, tick, plant);
         plant.next_tick();
         crash = plant.fault().cloned();
-        ending.is_none()
+        watcher.before_tick(plant.samples());
+        is_interrupted = watcher.after_tick(monitor.trace()).is_break();
+        ending.is_none() && !is_interrupted
     };
     let stopped = loop {
         // The queue of records must not become full.
@@ -93,6 +96,9 @@ pub fn run(
             break stopped;
         }
     };
+    if is_interrupted {
+        return Err(ExecuteError::Interrupted.into());
+    }
     let ending = match (ending, stopped) {
         (Some(ending), _) => ending,
         (None, Stopped::Plant(fault)) => match crash {

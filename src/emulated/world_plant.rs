@@ -18,6 +18,8 @@ pub struct WorldPlant {
     has_body_touched: bool,
     has_snapped_off: [bool; MAX_WHISKERS],
     out_of_plane: [Option<OutOfPlane>; MAX_WHISKERS],
+    /// The samples of the newest tick.
+    samples: Vec<Sample>,
 }
 
 impl WorldPlant {
@@ -36,7 +38,14 @@ impl WorldPlant {
             has_body_touched: false,
             has_snapped_off: [false; MAX_WHISKERS],
             out_of_plane: [None; MAX_WHISKERS],
+            samples: Vec::new(),
         }
+    }
+
+    /// The samples with which the machine has executed its newest tick, oldest first.
+    #[must_use]
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
     }
 
     /// Forgets the events of the last tick.
@@ -77,6 +86,11 @@ impl Plant for WorldPlant {
             }
         }
         Ok(PlantState { pose: sample.body, base_moments })
+    }
+
+    fn ticked(&mut self, samples: &[Sample]) {
+        self.samples.clear();
+        self.samples.extend_from_slice(samples);
     }
 }
 

@@ -2,12 +2,12 @@
 
 use crate::diagnostic::{Diagnostic, Source};
 use crate::policy::explain::{Explained, explain};
-use vibrissa_runtime::machine::{Guard, Register};
+use vibrissa_runtime::machine::{Guard, Register, TIME_SLACK, TransitionId};
 
-/// A condition or a state at which a run stops.
+/// A condition, a state or a transition at which a run stops.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Breakpoint {
-    /// The text: the name of a state, or a condition.
+    /// The text: the name of a state, a transition, or a condition.
     pub text: String,
     pub(super) place: Place,
     /// Register of the time (s) for which a condition must hold.
@@ -18,8 +18,64 @@ pub struct Breakpoint {
 pub(super) enum Place {
     /// The state with this index was entered.
     State(usize),
+    /// A transition is taken.
+    Transition(TransitionId),
     /// A condition holds. It is the one of the global transition with this index.
     Condition(usize),
+}
+
+/// What a tick did, for its breakpoints.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BreakpointTick<'t> {
+    /// Its time (s).
+    pub(crate) time: f64,
+    /// The innermost active state.
+    pub(crate) state: usize,
+    /// True if that state was entered in the tick.
+    pub(crate) has_entered: bool,
+    /// The transitions that were taken.
+    pub(crate) taken: &'t [TransitionId],
+    /// The registers after the guards that were tried last.
+    pub(crate) registers: &'t [f64],
+}
+
+/// The breakpoints during a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct BreakpointWatch {
+    /// For each breakpoint, the time (s) since which its condition holds.
+    holding_since: Vec<Option<f64>>,
+    /// True for each breakpoint that the tick before hit.
+    were_hit: Vec<bool>,
+}
+
+impl BreakpointWatch {
+    /// The first breakpoint that a tick hits. A condition that goes on holding hits once.
+    pub(crate) fn hit<'b>(&mut self, policy: &'b Breakpoints, tick: &BreakpointTick<'_>) -> Option<&'b Breakpoint> {
+        let (explained, count) = (&policy.explained, policy.breakpoints.len());
+        self.holding_since.resize(count, None);
+        self.were_hit.resize(count, false);
+        let mut first = None;
+        let states = self.holding_since.iter_mut().zip(&mut self.were_hit);
+        for (breakpoint, (since, was_hit)) in policy.breakpoints.iter().zip(states) {
+            let is_hit = match breakpoint.place {
+                Place::State(wanted) => tick.has_entered && explained.program.contains(wanted, tick.state),
+                Place::Transition(transition) => tick.taken.contains(&transition),
+                Place::Condition(index) => {
+                    let condition = explained.always.get(index).and_then(|always| always.condition.as_ref());
+                    let is_met = condition.is_some_and(|condition| condition.missing(tick.registers).is_empty());
+                    *since = is_met.then(|| since.unwrap_or(tick.time));
+                    let needed = breakpoint.lasting.and_then(|register| tick.registers.get(usize::from(register)));
+                    let needed = needed.copied().unwrap_or(0.0);
+                    since.is_some_and(|since| tick.time - since >= needed - TIME_SLACK)
+                }
+            };
+            let goes_on = std::mem::replace(was_hit, is_hit) && matches!(breakpoint.place, Place::Condition(_));
+            if is_hit && !goes_on {
+                first = first.or(Some(breakpoint));
+            }
+        }
+        first
+    }
 }
 
 /// An explained policy with breakpoints.
@@ -33,7 +89,8 @@ pub struct Breakpoints {
 
 impl Breakpoints {
     /// Explains a policy and adds breakpoints to it. A text that is the name of a state stops the run when that state is entered.
-    /// Every other text is a condition, with or without a time after `for`. It may contain what a global transition may.
+    /// The name of a state, a colon and one of its guards stops it when that transition is taken. Every other text is a condition,
+    /// with or without a time after `for`. It may contain what a global transition may.
     ///
     /// # Errors
     /// Those of [`explain`], with the source to which they belong. It contains the breakpoints after the text of the policy.
@@ -41,11 +98,14 @@ impl Breakpoints {
         let plain = explain(source).map_err(|faults| (source.clone(), faults))?;
         let (states, first) = (&plain.program.states, plain.always.len());
         let state = |text: &String| states.iter().position(|state| *state.name == *text.trim());
-        let conditions: Vec<&String> = texts.iter().filter(|text| state(text).is_none()).collect();
-        let (mut breakpoints, mut next) = (Vec::with_capacity(texts.len()), first);
+        let (mut breakpoints, mut next, mut conditions) = (Vec::with_capacity(texts.len()), first, Vec::new());
         for text in texts {
-            let place = state(text).map_or(Place::Condition(next), Place::State);
-            next += usize::from(matches!(place, Place::Condition(_)));
+            let transition = || transition(&plain, text).map(Place::Transition);
+            let place = state(text).map(Place::State).or_else(transition).unwrap_or(Place::Condition(next));
+            if let Place::Condition(_) = place {
+                next += 1;
+                conditions.push(text);
+            }
             breakpoints.push(Breakpoint { text: text.clone(), place, lasting: None });
         }
         if conditions.is_empty() {
@@ -63,6 +123,28 @@ impl Breakpoints {
         disable(&mut explained, first);
         Ok(Self { explained, breakpoints })
     }
+}
+
+impl Breakpoint {
+    /// The state whose entry stops the run, if it is one.
+    #[must_use]
+    pub fn state(&self) -> Option<usize> {
+        if let Place::State(state) = self.place { Some(state) } else { None }
+    }
+
+    /// The transition that stops the run, if it is one.
+    #[must_use]
+    pub fn transition(&self) -> Option<TransitionId> {
+        if let Place::Transition(transition) = self.place { Some(transition) } else { None }
+    }
+}
+
+/// The transition that a text names by its state and its guard.
+fn transition(policy: &Explained, text: &str) -> Option<TransitionId> {
+    let (name, guard) = text.split_once(':')?;
+    let state = policy.program.states.iter().position(|state| *state.name == *name.trim())?;
+    let index = policy.states.get(state)?.iter().position(|one| one.text == guard.trim())?;
+    Some(TransitionId { state: Some(state), index })
 }
 
 /// A policy with a global transition for each condition, after its other items.

@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 
 use vibrissa_runtime::machine::{
-    ContractId, Observer, Program, Standing, TIME_SLACK, Target, TransitionId, TriedGuard, ViolatedContract,
+    ContractId, Observer, Program, Standing, Target, TransitionId, TriedGuard, ViolatedContract,
 };
 
 use crate::policy::explain::Variable;
 use crate::run::{Trace, Watcher};
 
-use super::breakpoint::{Breakpoint, Breakpoints, Place};
+use super::breakpoint::{Breakpoint, BreakpointTick, BreakpointWatch, Breakpoints, Place};
 use super::records::{GuardRecord, LeafRecord, StopRecord, TransitionLine, VariableRecord, ViolationLine};
 
 /// Watches one run of an explained policy. It collects the transitions that are taken, and stops the run at a breakpoint.
@@ -34,8 +34,9 @@ pub struct Inspector<'b> {
     /// The violations of contracts in the current tick, and in earlier ones.
     violated: Vec<ViolationLine>,
     violations: Vec<ViolationLine>,
-    /// For each breakpoint, the time (s) since which its condition holds.
-    holding_since: Vec<Option<f64>>,
+    /// The same, by their identifiers.
+    taken_ids: Vec<TransitionId>,
+    watch: BreakpointWatch,
     stop: Option<StopRecord>,
     origin: Option<String>,
 }
@@ -56,7 +57,8 @@ impl<'b> Inspector<'b> {
             transitions: Vec::new(),
             violated: Vec::new(),
             violations: Vec::new(),
-            holding_since: vec![None; policy.breakpoints.len()],
+            taken_ids: Vec::new(),
+            watch: BreakpointWatch::default(),
             stop: None,
             origin: None,
         }
@@ -106,26 +108,11 @@ impl<'b> Inspector<'b> {
         id.state.is_none() && self.policy.breakpoints.iter().any(is_its)
     }
 
-    /// The first breakpoint that the tick at `now` (s) hit. `state` is the innermost active state.
-    fn hit(&mut self, state: usize, now: f64) -> Option<&'b Breakpoint> {
-        let explained = &self.policy.explained;
-        let mut hit = None;
-        for (breakpoint, since) in self.policy.breakpoints.iter().zip(&mut self.holding_since) {
-            let is_hit = match breakpoint.place {
-                Place::State(wanted) => self.entered == self.ticks && explained.program.contains(wanted, state),
-                Place::Condition(index) => {
-                    let condition = explained.always.get(index).and_then(|always| always.condition.as_ref());
-                    let is_met = condition.is_some_and(|condition| condition.missing(&self.registers).is_empty());
-                    *since = is_met.then(|| since.unwrap_or(now));
-                    let needed = breakpoint.lasting.and_then(|register| self.registers.get(usize::from(register)));
-                    since.is_some_and(|since| now - since >= needed.copied().unwrap_or(0.0) - TIME_SLACK)
-                }
-            };
-            if is_hit {
-                hit = hit.or(Some(breakpoint));
-            }
-        }
-        hit
+    /// The first breakpoint that the tick at `time` (s) hit. `state` is the innermost active state.
+    fn hit(&mut self, state: usize, time: f64) -> Option<&'b Breakpoint> {
+        let (has_entered, registers) = (self.entered == self.ticks, self.registers.as_slice());
+        let tick = BreakpointTick { time, state, has_entered, taken: &self.taken_ids, registers };
+        self.watch.hit(self.policy, &tick)
     }
 
     fn stopped(&self, breakpoint: &Breakpoint, time_s: f64, innermost: usize) -> StopRecord {
@@ -175,6 +162,7 @@ impl Observer for Inspector<'_> {
             let (scenario, tick) = (self.scenario.clone(), self.ticks);
             self.taken.push(TransitionLine { scenario, time_s: 0.0, tick, left, ticks_in_state, taken, others });
         }
+        self.taken_ids.push(transition);
         self.entered = self.ticks;
         self.tried.clear();
         // The innermost state is known at the next guard of a state, or at the end of the tick.
@@ -237,6 +225,7 @@ impl Inspector<'_> {
     /// Begins the next tick.
     pub(super) fn begin_tick(&mut self) {
         self.tried.clear();
+        self.taken_ids.clear();
     }
 }
 

@@ -8,6 +8,8 @@ mod near_miss;
 mod records;
 
 pub use breakpoint::{Breakpoint, Breakpoints};
+#[cfg(feature = "live")]
+pub(crate) use breakpoint::{BreakpointTick, BreakpointWatch};
 pub use difference::{DifferentTick, PolicyDifference, PolicyPair, PolicyTick, first_difference};
 pub use explained_control::ExplainedControl;
 pub use inspector::Inspector;

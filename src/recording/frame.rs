@@ -6,22 +6,22 @@ use crate::run::{MarkRecord, MessageRecord, TickRecord, Trace};
 
 /// The inputs and the results of a tick.
 #[derive(Debug, Clone)]
-pub(super) struct Frame {
+pub(crate) struct RecordedFrame {
     /// The samples of the control period before the tick.
-    pub(super) samples: Vec<Sample>,
+    pub(crate) samples: Vec<Sample>,
     /// The tick.
-    pub(super) tick: TickRecord,
+    pub(crate) tick: TickRecord,
     /// The marks of the policy.
-    pub(super) marks: Vec<MarkRecord>,
+    pub(crate) marks: Vec<MarkRecord>,
     /// The plots that the policy has set: index and value.
-    pub(super) plots: Vec<(usize, f64)>,
+    pub(crate) plots: Vec<(usize, f64)>,
     /// The messages of the policy.
-    pub(super) messages: Vec<MessageRecord>,
+    pub(crate) messages: Vec<MessageRecord>,
 }
 
-impl Frame {
+impl RecordedFrame {
     /// The last tick of a trace. `None` if it has none.
-    pub(super) fn last(trace: &Trace, samples: Vec<Sample>) -> Option<Self> {
+    pub(crate) fn last(trace: &Trace, samples: Vec<Sample>) -> Option<Self> {
         let index = trace.ticks.len().checked_sub(1)?;
         let plots = trace.plots.iter().enumerate().filter_map(|(plot, record)| {
             record.values.last().filter(|&&(tick, _)| tick == index).map(|&(_, value)| (plot, value))

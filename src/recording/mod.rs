@@ -4,6 +4,7 @@
 //! without the simulator.
 
 mod channel;
+mod channels;
 mod error;
 mod frame;
 mod read;
@@ -11,6 +12,7 @@ mod recorder;
 mod replay;
 mod sample_message;
 mod setup;
+mod shape;
 mod view;
 mod writer;
 
@@ -19,3 +21,5 @@ pub use read::RunRecording;
 pub use recorder::Recorder;
 pub use replay::{compare_policies, replay};
 pub use setup::Setup;
+#[cfg(feature = "live")]
+pub(crate) use {channels::Channels, frame::RecordedFrame, shape::outline_points, shape::shaft_points};

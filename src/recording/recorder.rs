@@ -11,7 +11,7 @@ use vibrissa_runtime::machine::{Artifact, Observer};
 use vibrissa_runtime::signal::Sample;
 
 use super::error::RecordError;
-use super::frame::Frame;
+use super::frame::RecordedFrame;
 use super::setup::Setup;
 use super::writer::Writer;
 use crate::diagnostic::Source;
@@ -29,7 +29,7 @@ const QUEUE: usize = 16;
 #[derive(Debug)]
 pub struct Recorder {
     samples: Vec<Sample>,
-    batch: Vec<Frame>,
+    batch: Vec<RecordedFrame>,
     thread: Option<WriterThread>,
     /// What the thread needs before the first tick.
     setup: Option<Box<(Setup, ContourSet)>>,
@@ -39,7 +39,7 @@ pub struct Recorder {
 
 #[derive(Debug)]
 struct WriterThread {
-    sender: SyncSender<Vec<Frame>>,
+    sender: SyncSender<Vec<RecordedFrame>>,
     handle: JoinHandle<Result<Writer, RecordError>>,
 }
 
@@ -116,7 +116,7 @@ impl Watcher for Recorder {
 
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
         self.start(trace);
-        self.batch.extend(Frame::last(trace, std::mem::take(&mut self.samples)));
+        self.batch.extend(RecordedFrame::last(trace, std::mem::take(&mut self.samples)));
         if self.batch.len() >= BATCH {
             self.send();
         }
@@ -129,7 +129,7 @@ fn write(
     setup: &Setup,
     surfaces: &ContourSet,
     trace: Trace,
-    receiver: &Receiver<Vec<Frame>>,
+    receiver: &Receiver<Vec<RecordedFrame>>,
 ) -> Result<Writer, RecordError> {
     let mut writer = Writer::new(setup, surfaces, trace)?;
     let policy = setup.policy.as_ref().map(|source| Breakpoints::new(source, &[]).map_err(|_| RecordError::Explain));

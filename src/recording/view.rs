@@ -10,7 +10,8 @@ use foxglove::messages::{
 };
 use vibrissa_runtime::rig::Rig;
 
-use crate::geometry::{Contour, ContourSet, Piece, Point2, unit};
+use super::shape::{outline_points, shaft_points};
+use crate::geometry::{Contour, ContourSet, Point2};
 use crate::run::TickRecord;
 
 /// The frame of the scene.
@@ -18,14 +19,10 @@ const WORLD: &str = "world";
 /// The frame of the platform: its origin is the centre of mass, and its x axis the heading.
 const BODY: &str = "body";
 
-/// The largest distance (m) of a drawn chord from an arc.
-const CHORD_ERROR: f64 = 2e-4;
 /// Drawn coordinates are multiples of this (m), 8 µm. Further digits cannot be seen and need space.
 const RESOLUTION: f64 = 1.0 / 131_072.0;
 /// The distance (m) of the points of an outline.
 const POINT_DISTANCE: f64 = 3e-3;
-/// The number of points on a drawn whisker.
-const SHAFT_POINTS: u32 = 9;
 
 /// The pose of what is drawn in its own frame.
 const ORIGIN: Pose = Pose {
@@ -59,7 +56,7 @@ impl View {
 
     /// The outlines of all objects.
     pub(super) fn scene(surfaces: &ContourSet) -> SceneUpdate {
-        let outline = |contour: &Contour| line(&contour_points(contour), contour.is_closed(), 2e-3, OBJECT);
+        let outline = |contour: &Contour| line(&outline_points(contour), contour.is_closed(), 2e-3, OBJECT);
         update("scene", WORLD, 0.0, surfaces.contours().map(outline).collect())
     }
 
@@ -85,18 +82,14 @@ impl View {
         update("platform", BODY, 0.0, vec![line(&outline, true, 2e-3, PLATFORM)])
     }
 
-    /// The whiskers of a tick. Their shape is the cubic curve from the base to the true tip: it begins in the direction of the
-    /// base, and is not bent at its end, as a uniform shaft under a small force at its tip.
+    /// The whiskers of a tick, bent to their true tips.
     pub(super) fn whiskers(&self, tick: &TickRecord) -> SceneUpdate {
         let shafts = self.whiskers.iter().enumerate().filter_map(|(index, &in_rig)| {
             let whisker = self.rig.whiskers.get(in_rig)?;
-            let tip = tick.body.point_from_world(tick.tip_ends[index]?);
-            let base = whisker.base_body;
-            let start = unit(whisker.direction_body + tick.deflections[index]);
-            let first = base + whisker.shaft.length / 3.0 * start;
-            let second = Point2::from((first.coords + tip.coords) / 2.0);
-            let point = |k: u32| on_curve([base, first, second, tip], f64::from(k) / f64::from(SHAFT_POINTS - 1));
-            Some(line(&(0..SHAFT_POINTS).map(point).collect::<Vec<_>>(), false, 1.5e-3, WHISKER))
+            // A replay knows no true tips.
+            let tip_world = tick.tip_ends[index].filter(|tip| tip.coords.iter().all(|part| part.is_finite()))?;
+            let tip = tick.body.point_from_world(tip_world);
+            Some(line(&shaft_points(whisker, tick.deflections[index], tip), false, 1.5e-3, WHISKER))
         });
         update("whiskers", BODY, tick.time, shafts.collect())
     }
@@ -132,6 +125,12 @@ impl View {
         cloud(&tips, tick.time)
     }
 
+    /// Adds recorded tips.
+    #[cfg(feature = "live")]
+    pub(super) fn add(&mut self, tips: impl IntoIterator<Item = Point2>) {
+        self.contour.extend(tips);
+    }
+
     /// Adds the recorded tips of a tick. The result is the contour, if it has grown by an eighth since the last message. So all
     /// messages together are at most nine times as long as the last one.
     pub(super) fn grown(&mut self, tick: &TickRecord) -> Option<PointCloud> {
@@ -148,29 +147,6 @@ impl View {
         self.sent = self.contour.len();
         cloud(&self.contour, time)
     }
-}
-
-/// A point of a cubic curve.
-fn on_curve([a, b, c, d]: [Point2; 4], t: f64) -> Point2 {
-    let s = 1.0 - t;
-    let sum = s * s * s * a.coords + 3.0 * s * s * t * b.coords + 3.0 * s * t * t * c.coords + t * t * t * d.coords;
-    Point2::from(sum)
-}
-
-/// The points of a drawn contour: the ends of its pieces, and points on its arcs.
-fn contour_points(contour: &Contour) -> Vec<Point2> {
-    let mut points: Vec<Point2> = contour.pieces().iter().flat_map(piece_points).collect();
-    points.extend(contour.pieces().last().filter(|_| !contour.is_closed()).map(Piece::end));
-    points
-}
-
-/// The points of a piece without its end.
-fn piece_points(piece: &Piece) -> Vec<Point2> {
-    // A chord of the length c is at most c² κ / 8 away from its arc.
-    let chord = (8.0 * CHORD_ERROR / piece.curvature().abs()).sqrt();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a small positive number")]
-    let count = (piece.length() / chord).ceil().clamp(1.0, 1e4) as u32;
-    (0..count).map(|k| piece.point_at(piece.length() * f64::from(k) / f64::from(count))).collect()
 }
 
 fn line(points: &[Point2], is_closed: bool, thickness: f64, color: Color) -> LinePrimitive {
@@ -244,7 +220,7 @@ pub(super) fn nanoseconds(time: f64) -> u64 {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::geometry::{Pose as BodyPose, circle, polygon};
+    use crate::geometry::Pose as BodyPose;
     use proptest::prelude::*;
     use vibrissa_runtime::signal::Command;
 
@@ -293,16 +269,6 @@ mod tests {
         }
 
         #[test]
-        fn a_drawn_outline_is_nowhere_farther_from_the_contour_than_a_chord_may_be(radius in 0.01..1.0_f64) {
-            let contour = circle(Point2::new(0.3, 0.2), radius).unwrap();
-            let points = contour_points(&contour);
-            for pair in points.windows(2) {
-                prop_assert!(contour.nearest(nalgebra::center(&pair[0], &pair[1])).distance < 1.001 * CHORD_ERROR);
-            }
-            prop_assert!(points.len() < 1000);
-        }
-
-        #[test]
         fn the_frame_of_the_body_is_its_pose((x, y, heading) in (-1.0..1.0, -1.0..1.0, -9.0..9.0_f64)) {
             let body = BodyPose { position: Point2::new(x, y), heading };
             let (transform, pose) = View::pose(&tick(body, Point2::origin()));
@@ -312,12 +278,6 @@ mod tests {
             prop_assert_eq!(pose.pose.unwrap().orientation, transform.rotation);
             prop_assert!((transform.translation.unwrap().x - x).abs() <= RESOLUTION);
         }
-    }
-
-    #[test]
-    fn a_polygon_keeps_its_corners() {
-        let corners = [Point2::origin(), Point2::new(0.5, 0.0), Point2::new(0.2, 0.4)];
-        assert_eq!(contour_points(&polygon(&corners).unwrap()), corners);
     }
 
     #[test]

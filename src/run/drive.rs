@@ -54,6 +54,32 @@ impl Watcher for () {
     }
 }
 
+/// Passes everything on to a watcher, if there is one.
+impl<W: Watcher> Watcher for Option<W> {
+    fn before_tick(&mut self, samples: &[Sample]) {
+        if let Some(watcher) = self {
+            watcher.before_tick(samples);
+        }
+    }
+
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        self.iter_mut().try_for_each(|watcher| watcher.after_tick(trace))
+    }
+}
+
+/// Passes everything on to the first watcher, and then to the second one.
+impl<A: Watcher, B: Watcher> Watcher for (A, B) {
+    fn before_tick(&mut self, samples: &[Sample]) {
+        self.0.before_tick(samples);
+        self.1.before_tick(samples);
+    }
+
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        self.0.after_tick(trace)?;
+        self.1.after_tick(trace)
+    }
+}
+
 /// A watcher that receives the trace alone.
 #[derive(Debug)]
 pub struct Progress<F>(pub F);

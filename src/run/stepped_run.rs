@@ -1,10 +1,12 @@
 //! A run that its caller steps.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::scene::Stop;
 use crate::world::World;
 use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::signal::Command;
 
 use super::drive::{Run, Watcher};
@@ -86,6 +88,11 @@ impl SteppedRun {
         self.command = command;
         self.control.replace_command(command);
         self.monitor.replace_command(command);
+    }
+
+    /// Continues with another program of the same policy, such as one with other values of parameters.
+    pub fn continue_with(&mut self, program: Arc<Program>) {
+        self.control.continue_with(program);
     }
 
     /// The command of the newest tick.

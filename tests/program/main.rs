@@ -11,6 +11,8 @@ mod disk;
 mod editor;
 #[cfg(target_os = "linux")]
 mod faults;
+#[cfg(feature = "live")]
+mod live;
 #[cfg(feature = "sim")]
 mod metrics;
 mod other_rigs;

@@ -142,10 +142,8 @@
     }
   };
 
-  // src/report/zoom.ts
+  // src/shared/zoom.ts
   var Zoom = class {
-    /** The view box of the whole picture. */
-    whole;
     #drawing;
     #svg;
     #size;
@@ -157,10 +155,25 @@
       this.#svg = svg;
       const { width, height } = svg.viewBox.baseVal;
       this.#size = [width, height];
-      this.whole = `0 0 ${width} ${height}`;
       drawing.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
       drawing.addEventListener("dblclick", (event) => this.by(2, ...this.position(event)));
       drawing.addEventListener("pointerdown", (event) => this.#drag(event));
+    }
+    /** The view box of the whole picture. */
+    get whole() {
+      return `0 0 ${this.#size[0]} ${this.#size[1]}`;
+    }
+    /** Gives the picture another size (px). */
+    resize(width, height) {
+      this.#size = [width, height];
+      this.#show();
+    }
+    /** Shows a position (px of the picture) in the middle, enlarged by a factor. */
+    look(x, y, scale) {
+      this.#scale = scale;
+      const [width, height] = this.#visible();
+      [this.#left, this.#top] = [x - width / 2, y - height / 2];
+      this.#show();
     }
     /** The position (px of the picture) of a pointer. */
     position(event) {

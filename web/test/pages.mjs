@@ -2,48 +2,14 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { browser, checkFit, open, tabTo } from "./browser.mjs";
 
 const [bench, sweep] = process.argv.slice(2).map((path) => pathToFileURL(path).href);
-// A browser that asks for updates would fail in a closed network.
-const quiet = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: quiet });
-
-/** Opens a page, gives it to `use`, and fails on a message of the console. */
-async function open(address, colorScheme, width, use) {
-  const context = await browser.newContext({ colorScheme, viewport: { width, height: 1000 } });
-  const page = await context.newPage();
-  const messages = [];
-  page.on("console", (message) => messages.push(message.text()));
-  page.on("pageerror", (error) => messages.push(error.message));
-  await page.goto(address);
-  await use(page);
-  assert.deepEqual(messages, [], `${address}, ${colorScheme}, ${width} px`);
-  await context.close();
-}
-
-/** Moves the focus by the key Tab until the focused element matches. */
-async function tabTo(page, selector) {
-  for (let count = 0; count < 3000; count += 1) {
-    await page.keyboard.press("Tab");
-    if (await page.evaluate((selector) => document.activeElement?.matches(selector), selector)) {
-      return;
-    }
-  }
-  assert.fail(`the key Tab does not reach ${selector}`);
-}
 
 for (const address of [bench, sweep]) {
   for (const colorScheme of ["light", "dark"]) {
     for (const width of [400, 1600]) {
-      await open(address, colorScheme, width, async (page) => {
-        const { overflow, ground } = await page.evaluate(() => ({
-          overflow: document.documentElement.scrollWidth - innerWidth,
-          ground: getComputedStyle(document.body).backgroundColor,
-        }));
-        assert.ok(overflow <= 0, `${address} is ${overflow} px too wide at ${width} px`);
-        assert.equal(ground === "rgb(255, 255, 255)", colorScheme === "light", ground);
-      });
+      await open(address, colorScheme, width, (page) => checkFit(page, colorScheme, width));
     }
   }
 }

@@ -179,7 +179,7 @@ const CHECKS: [Check; 21] = [
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
     // The whole workspace, so that dependencies have the features with which the tests were built.
     check("benches, each run once", &["test", "--workspace", "--features", FEATURES, "--bench", "*"]),
-    Check { title: "reports in a browser", work: Work::Browser },
+    Check { title: "pages in a browser", work: Work::Browser },
     // The dependencies are those of the tests, and so is the program that it is compared with.
     Check { title: "Python package", work: Work::Python },
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },

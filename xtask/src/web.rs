@@ -1,4 +1,4 @@
-//! The scripts of the pages: TypeScript in `web/src`, bundled into `web/dist`, which the program contains.
+//! The scripts and style sheets of the pages: their sources in `web/src`, bundled into `web/dist`, which the program contains.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
@@ -8,8 +8,8 @@ use thiserror::Error;
 
 use crate::cargo::target_directory;
 
-/// The names of the bundles. Each is the script of one page.
-const BUNDLES: [&str; 1] = ["report.js"];
+/// The names of the bundles: the script and the style sheet of each page.
+const BUNDLES: [&str; 4] = ["report.js", "report.css", "live.js", "live.css"];
 
 /// The browser.
 const CHROMIUM: &str = "/usr/bin/chromium";
@@ -51,7 +51,7 @@ pub(crate) fn check(root: &Path) -> Result<(), WebError> {
     Ok(())
 }
 
-/// Writes a report of the bench and one of a sweep with the tested program, and uses both in Chromium.
+/// Uses the pages of the tested program in Chromium: a report of the bench, one of a sweep, and the live page.
 pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     if !Path::new(CHROMIUM).exists() {
         return Err(WebError::NoChromium);
@@ -63,16 +63,19 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     run(root, &program, &["bench", "--world", "quasistatic", "--out", &bench])?;
     run(root, &program, &["sweep", "web/test/sweep.yaml", "--out", &sweep])?;
     let pages = [bench, sweep].map(|directory| format!("{directory}/index.html"));
-    run(&root.join("web"), "node", &["test/pages.mjs", &pages[0], &pages[1]])
+    let web = root.join("web");
+    run(&web, "node", &["test/pages.mjs", &pages[0], &pages[1]])?;
+    run(&web, "node", &["test/live.mjs", &program])
 }
 
-/// Installs the pinned tools and checks the types.
+/// Installs the pinned tools, checks the types, and tests the parts that need no browser.
 fn prepare(web: &Path) -> Result<(), WebError> {
     if Command::new("npm").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err() {
         return Err(WebError::NoNpm);
     }
     run(web, "npm", &["ci", "--silent", "--no-audit", "--no-fund"])?;
-    run(web, "npm", &["run", "--silent", "check"])
+    run(web, "npm", &["run", "--silent", "check"])?;
+    run(web, "npm", &["run", "--silent", "test"])
 }
 
 fn run(web: &Path, program: &str, arguments: &[&str]) -> Result<(), WebError> {

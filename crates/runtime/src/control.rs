@@ -74,6 +74,12 @@ impl Control {
         (command, tick)
     }
 
+    /// Continues with another program of the same policy, such as one with other values of parameters. See
+    /// [`Machine::continue_with`].
+    pub fn continue_with(&mut self, program: Arc<Program>) {
+        self.machine.continue_with(program, &mut self.perception);
+    }
+
     /// Tells perception that the platform executes this command instead of that of the newest tick.
     pub fn replace_command(&mut self, command: Command) {
         self.perception.command(command);

@@ -6,9 +6,11 @@
 mod build;
 mod condition;
 mod non_finite;
+mod threshold;
 mod variable;
 
 pub use condition::{Condition, Judged, Leaf};
+pub use threshold::{Threshold, ThresholdError};
 pub use variable::{Variable, VariableValue};
 
 use vibrissa_runtime::machine::{ContractId, Program, TransitionId};

@@ -2,8 +2,8 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-/// The style sheet of every page.
-const STYLE: &str = include_str!("page.css");
+/// The style sheet of every page, from `web/src/report`.
+const STYLE: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/web/dist/report.css"));
 /// The script of every page, from `web/src/report`.
 const SCRIPT: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/web/dist/report.js"));
 

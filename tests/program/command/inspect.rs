@@ -54,3 +54,14 @@ fn diff_has_exit_status_1_for_policies_that_differ() {
     let (status, shown) = diff("policies/baseline.fsm");
     assert!(status == Some(1) && shown.contains("the first difference is in tick"), "{shown}");
 }
+
+#[cfg(feature = "live")]
+#[test]
+fn a_breakpoint_ends_no_run_that_is_watched_or_recorded() {
+    for words in [&["--watch"][..], &["--record", "run.mcap"]] {
+        let arguments = [&["run", "scenarios/box.yaml", "--break", "Meeting"], words].concat();
+        let output = vibrissa(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        assert!(stderr(&output).contains("add --live"), "{}", stderr(&output));
+    }
+}

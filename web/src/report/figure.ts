@@ -2,7 +2,7 @@ import { button } from "../shared/button.ts";
 import { download, fileName } from "../shared/download.ts";
 import { Cursor } from "./cursor.ts";
 import type { Positions } from "./positions.ts";
-import { Zoom } from "./zoom.ts";
+import { Zoom } from "../shared/zoom.ts";
 
 /** Lets a figure be zoomed, read by pointer and keyboard, and exported. */
 export function enhanceFigure(figure: HTMLElement): void {

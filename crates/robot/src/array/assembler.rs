@@ -143,6 +143,12 @@ impl Assembler {
         &self.samples
     }
 
+    /// The samples that [`samples`](Self::samples) has returned last.
+    #[must_use]
+    pub fn newest_samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
     /// Age (ns) of a value when it is read.
     #[must_use]
     pub fn delay_ns(&self) -> u64 {

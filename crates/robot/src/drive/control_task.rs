@@ -97,6 +97,12 @@ impl ControlTask {
         &self.control
     }
 
+    /// The samples of the newest step, oldest first.
+    #[must_use]
+    pub fn samples(&self) -> &[Sample] {
+        self.assembler.newest_samples()
+    }
+
     /// Executes a step, with the samples until its last sample period.
     ///
     /// `observe` receives the control loop after every tick of the machine. `now` gives the time.

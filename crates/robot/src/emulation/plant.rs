@@ -1,7 +1,7 @@
 //! The simulated robot that the emulated sensors belong to.
 
 use vibrissa_runtime::geometry::Pose;
-use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
 /// A simulated platform with whiskers.
 pub trait Plant {
@@ -13,6 +13,11 @@ pub trait Plant {
     /// # Errors
     /// [`PlantFault`] if the simulation cannot go on. The run must end.
     fn advance(&mut self, command: &Command) -> Result<PlantState, PlantFault>;
+
+    /// Receives the samples with which the machine has executed a tick, oldest first, before the observer of that tick is called.
+    fn ticked(&mut self, samples: &[Sample]) {
+        let _ = samples;
+    }
 }
 
 /// The state of a plant that sensors measure.

@@ -343,8 +343,11 @@ impl<P: Plant> Emulation<P> {
             self.begun_ns = Some(self.now_ns);
         }
         // Outside of the guard, so that a panic of the observer ends the run.
-        let observe =
-            |(command, tick)| observe(self.control.control(), command, &tick, &mut self.timeline.borrow_mut().plant);
+        let observe = |(command, tick)| {
+            let plant = &mut self.timeline.borrow_mut().plant;
+            plant.ticked(self.control.samples());
+            observe(self.control.control(), command, &tick, plant)
+        };
         Ok(ticked.is_none_or(observe))
     }
 }

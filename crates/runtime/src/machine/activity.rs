@@ -62,6 +62,17 @@ impl Activity {
         self.active.innermost()
     }
 
+    /// Takes parameters, further registers, and all that depends only on them from `program`.
+    pub(super) fn continue_with<S: Senses>(&mut self, program: &Program, senses: &mut S) {
+        let further = program.initial_registers.get(self.registers.len()..).unwrap_or_default();
+        self.registers.extend_from_slice(further);
+        let parameters = program.initial_registers.iter().take(program.parameters.len());
+        self.registers.iter_mut().zip(parameters).for_each(|(own, value)| *own = *value);
+        if self.has_begun {
+            self.compute(program, &program.start, senses);
+        }
+    }
+
     /// Executes one tick, as described at [`Machine::tick`](super::Machine::tick).
     pub(super) fn tick<S: Senses>(
         &mut self,

@@ -30,6 +30,56 @@ pub trait Observer {
 
 impl Observer for () {}
 
+/// Passes everything on to an observer, if there is one.
+impl<O: Observer> Observer for Option<O> {
+    fn guard(&mut self, tried: &TriedGuard<'_>) {
+        if let Some(observer) = self {
+            observer.guard(tried);
+        }
+    }
+
+    fn taken(&mut self, transition: TransitionId) {
+        if let Some(observer) = self {
+            observer.taken(transition);
+        }
+    }
+
+    fn violated(&mut self, violated: &ViolatedContract<'_>) {
+        if let Some(observer) = self {
+            observer.violated(violated);
+        }
+    }
+
+    fn not_finite(&mut self, state: usize, registers: &[f64]) {
+        if let Some(observer) = self {
+            observer.not_finite(state, registers);
+        }
+    }
+}
+
+/// Passes everything on to the first observer, and then to the second one.
+impl<A: Observer, B: Observer> Observer for (A, B) {
+    fn guard(&mut self, tried: &TriedGuard<'_>) {
+        self.0.guard(tried);
+        self.1.guard(tried);
+    }
+
+    fn taken(&mut self, transition: TransitionId) {
+        self.0.taken(transition);
+        self.1.taken(transition);
+    }
+
+    fn violated(&mut self, violated: &ViolatedContract<'_>) {
+        self.0.violated(violated);
+        self.1.violated(violated);
+    }
+
+    fn not_finite(&mut self, state: usize, registers: &[f64]) {
+        self.0.not_finite(state, registers);
+        self.1.not_finite(state, registers);
+    }
+}
+
 /// Identifies a transition of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TransitionId {

@@ -90,6 +90,13 @@ impl Machine {
         Self { activity: Activity::new(&program, state, registers), end: None, program }
     }
 
+    /// Continues with another program of the same policy. It may have other values of parameters, further registers after the
+    /// existing ones, and operations that read these. Active states, memory and times stay as they are.
+    pub fn continue_with<S: Senses>(&mut self, program: Arc<Program>, senses: &mut S) {
+        self.activity.continue_with(&program, senses);
+        self.program = program;
+    }
+
     /// The program of the machine.
     #[must_use]
     pub fn program(&self) -> &Program {

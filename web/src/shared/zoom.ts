@@ -1,10 +1,8 @@
 /** The visible part of a picture, by its view box. */
 export class Zoom {
-  /** The view box of the whole picture. */
-  readonly whole: string;
   readonly #drawing: HTMLElement;
   readonly #svg: SVGSVGElement;
-  readonly #size: [number, number];
+  #size: [number, number];
   #scale = 1;
   #left = 0;
   #top = 0;
@@ -14,10 +12,28 @@ export class Zoom {
     this.#svg = svg;
     const { width, height } = svg.viewBox.baseVal;
     this.#size = [width, height];
-    this.whole = `0 0 ${width} ${height}`;
     drawing.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     drawing.addEventListener("dblclick", (event) => this.by(2, ...this.position(event)));
     drawing.addEventListener("pointerdown", (event) => this.#drag(event));
+  }
+
+  /** The view box of the whole picture. */
+  get whole(): string {
+    return `0 0 ${this.#size[0]} ${this.#size[1]}`;
+  }
+
+  /** Gives the picture another size (px). */
+  resize(width: number, height: number): void {
+    this.#size = [width, height];
+    this.#show();
+  }
+
+  /** Shows a position (px of the picture) in the middle, enlarged by a factor. */
+  look(x: number, y: number, scale: number): void {
+    this.#scale = scale;
+    const [width, height] = this.#visible();
+    [this.#left, this.#top] = [x - width / 2, y - height / 2];
+    this.#show();
   }
 
   /** The position (px of the picture) of a pointer. */

@@ -1,0 +1,155 @@
+//! The first message of a run.
+
+use vibrissa_runtime::machine::{Program, Target, Transition, TransitionId};
+use vibrissa_runtime::rig::Rig;
+
+use super::change::Changeable;
+use super::frame::rounded;
+use super::guards::GuardNumbers;
+use super::message::{
+    BreakpointInfo, Capabilities, ChartInfo, GuardInfo, Hello, Outline, PROTOCOL, PartInfo, RigInfo, StateInfo,
+    TransitionInfo, WhiskerInfo,
+};
+use super::setup::RunSetup;
+use crate::geometry::Contour;
+use crate::inspect::{Breakpoint, Breakpoints};
+use crate::policy::explain::{Explained, Judged};
+use crate::recording::outline_points;
+use crate::scene::Scene;
+
+/// The first message of a run under `program`, the numbers of its guards and the values that may be changed. `policy` is the
+/// explained policy, if it has a text, and `bound` are the whiskers that it binds, by their indices in the rig.
+pub(super) fn hello(
+    setup: &RunSetup,
+    program: &Program,
+    policy: Option<&Breakpoints>,
+    bound: &[usize],
+) -> (Hello, GuardNumbers, Changeable) {
+    let numbers = policy.map(GuardNumbers::new).unwrap_or_default();
+    let guards = policy.map(|policy| guards(&policy.explained, &numbers)).unwrap_or_default();
+    let thresholds = policy.map(|policy| policy.explained.thresholds()).unwrap_or_default();
+    let (changeable, parameters) =
+        Changeable::new(program, thresholds, |threshold| numbers.number(threshold.transition));
+    let sensing = &setup.rig.sensing;
+    let hello = Hello {
+        protocol: PROTOCOL,
+        version: env!("CARGO_PKG_VERSION"),
+        run: 0,
+        command: setup.command,
+        scenario: setup.scenario.clone(),
+        policy: program.name.clone(),
+        world: setup.world.clone(),
+        duration: setup.duration,
+        known_ticks: setup.known_ticks,
+        control_period: sensing.control_rate.recip(),
+        dt: sensing.sample_rate.recip(),
+        capabilities: Capabilities {
+            step: true,
+            breakpoints: policy.is_some(),
+            counterfactual: true,
+            closed_loop: setup.trial.is_some(),
+        },
+        whiskers: bound.iter().filter_map(|&index| Some(setup.rig.whiskers.get(index)?.name.clone())).collect(),
+        no_guards: setup.no_guards.clone().filter(|_| guards.is_empty()),
+        chart: chart(program, &guards, &numbers),
+        guards,
+        parameters,
+        scene: setup.scene.as_ref().map(outlines),
+        rig: rig(&setup.rig, bound),
+        breakpoints: policy.map(breakpoints).unwrap_or_default(),
+    };
+    (hello, numbers, changeable)
+}
+
+/// The breakpoints of a policy.
+pub(super) fn breakpoints(policy: &Breakpoints) -> Vec<BreakpointInfo> {
+    let info = |breakpoint: &Breakpoint| BreakpointInfo { text: breakpoint.text.clone(), state: breakpoint.state() };
+    policy.breakpoints.iter().map(info).collect()
+}
+
+fn guards(policy: &Explained, numbers: &GuardNumbers) -> Vec<GuardInfo> {
+    let info = |id| {
+        let transition = policy.transition(id)?;
+        let parts = transition.condition.as_ref().map(|condition| condition.judge(&[])).unwrap_or_default();
+        let part = |part: &Judged<'_>| PartInfo {
+            text: part.leaf.text.clone(),
+            unit: part.margin.map(|(_, dimension)| dimension.si_unit()),
+        };
+        Some(GuardInfo {
+            index: numbers.number(id)?,
+            state: id.state,
+            target: transition.target.clone(),
+            text: transition.text.clone(),
+            file: transition.file.clone(),
+            line: transition.position.line,
+            parts: parts.iter().map(part).collect(),
+        })
+    };
+    numbers.transitions().filter_map(info).collect()
+}
+
+fn chart(program: &Program, guards: &[GuardInfo], numbers: &GuardNumbers) -> ChartInfo {
+    let outermost = program.outward(program.initial).last();
+    let is_initial = |index: usize, parent: Option<usize>| match parent.and_then(|parent| program.states.get(parent)) {
+        Some(parent) => parent.initial.as_ref().is_some_and(|(initial, _)| *initial == index),
+        None => Some(index) == outermost,
+    };
+    let states = program.states.iter().enumerate().map(|(index, state)| StateInfo {
+        name: state.name.to_string(),
+        parent: state.parent,
+        initial: is_initial(index, state.parent),
+        behaviour: None,
+    });
+    let drawn = |state: Option<usize>, target: &Target, guard: Option<usize>, text: String| {
+        let (target, end) = match target {
+            Target::State { state, .. } => (Some(*state), None),
+            Target::Failure(_) => (None, Some("failure")),
+            Target::Success(_) => (None, Some("success")),
+        };
+        TransitionInfo { state, target, end, guard, text }
+    };
+    let of = |state: Option<usize>, transitions: &[Transition], fallback: Option<&Target>| {
+        let tried = transitions.iter().enumerate().filter_map(|(index, transition)| {
+            let id = TransitionId { state, index };
+            let guard = numbers.number(id);
+            // Those of breakpoints have no number. Without explanations no guard has one.
+            if guard.is_none() && !guards.is_empty() {
+                return None;
+            }
+            let text = guard.and_then(|guard| guards.get(guard)).map_or_else(String::new, |guard| guard.text.clone());
+            Some(drawn(state, &transition.target, guard, text))
+        });
+        let mut all: Vec<TransitionInfo> = tried.collect();
+        all.extend(fallback.map(|target| drawn(state, target, None, "failsafe".to_owned())));
+        all
+    };
+    let mut transitions = of(None, &program.always, program.fallback.as_ref());
+    for (index, state) in program.states.iter().enumerate() {
+        transitions.extend(of(Some(index), &state.transitions, state.fallback.as_ref()));
+    }
+    ChartInfo { states: states.collect(), transitions }
+}
+
+fn outlines(scene: &Scene) -> Vec<Outline> {
+    let outline = |contour: &Contour| Outline {
+        points: outline_points(contour).into_iter().map(|point| [point.x, point.y].map(rounded)).collect(),
+        closed: contour.is_closed(),
+    };
+    scene.truth.surfaces.contours().map(outline).collect()
+}
+
+fn rig(rig: &Rig, bound: &[usize]) -> RigInfo {
+    let whisker = |&index: &usize| {
+        let whisker = rig.whiskers.get(index)?;
+        Some(WhiskerInfo {
+            base: whisker.base_body.into(),
+            direction: whisker.direction_body,
+            length: whisker.shaft.length,
+            threshold: rig.sensing.contact_threshold,
+        })
+    };
+    RigInfo {
+        platform: rig.platform.outline_body().map(Into::into).to_vec(),
+        whiskers: bound.iter().filter_map(whisker).collect(),
+    }
+}

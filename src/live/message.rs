@@ -1,0 +1,460 @@
+//! The messages of the protocol `vibrissa.live.v1` between the program and its page. All values are in SI units and radians.
+//!
+//! Each message is one JSON text with the key `type`. States, whiskers and guards are named by their indices in [`Hello`].
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+/// The name of the protocol.
+pub(super) const PROTOCOL: &str = "vibrissa.live.v1";
+
+/// A message to the page.
+#[derive(Debug, Clone, Serialize)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub(super) enum ServerMessage {
+    /// The first message of a connection and of each run.
+    Hello(Arc<Hello>),
+    /// New ticks.
+    Ticks(Ticks),
+    /// What the run does. It follows every change.
+    Status(Status),
+    /// The answer to [`PageMessage::Range`].
+    History(History),
+    /// A piece of the answer to [`PageMessage::Counterfactual`].
+    Counterfactual(Piece),
+    /// A request that cannot be carried out.
+    Error {
+        /// What is wrong and what to do.
+        message: String,
+        /// The counterfactual to which it belongs.
+        id: Option<u64>,
+    },
+}
+
+/// Everything that stays the same during a run.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(super) struct Hello {
+    /// The protocol.
+    pub(super) protocol: &'static str,
+    /// Version of the program.
+    pub(super) version: &'static str,
+    /// Number of the run since the program was started, from 1. A page forgets the ticks of earlier runs.
+    pub(super) run: u64,
+    /// The command: `run`, `replay` or `drive`.
+    pub(super) command: &'static str,
+    /// Name of the scenario.
+    pub(super) scenario: String,
+    /// Name of the policy.
+    pub(super) policy: String,
+    /// Simulator. `None` if it is not known.
+    pub(super) world: Option<String>,
+    /// Longest duration of the run (s). `None` if it is not known.
+    pub(super) duration: Option<f64>,
+    /// Number of ticks, if all are known from the beginning.
+    pub(super) known_ticks: Option<usize>,
+    /// Control period (s).
+    pub(super) control_period: f64,
+    /// Sample period (s).
+    pub(super) dt: f64,
+    /// What the page may ask for.
+    pub(super) capabilities: Capabilities,
+    /// The whiskers that the policy binds, in its order.
+    pub(super) whiskers: Vec<String>,
+    /// The guards.
+    pub(super) guards: Vec<GuardInfo>,
+    /// Why there are no guards, if there are none.
+    pub(super) no_guards: Option<String>,
+    /// The statechart.
+    pub(super) chart: ChartInfo,
+    /// The values that a counterfactual may change: parameters of the policy, then thresholds of guards.
+    pub(super) parameters: Vec<ParameterInfo>,
+    /// The outlines of the objects in the world frame (m). `None` if the scene is not known.
+    pub(super) scene: Option<Vec<Outline>>,
+    /// The rig.
+    pub(super) rig: RigInfo,
+    /// The breakpoints.
+    pub(super) breakpoints: Vec<BreakpointInfo>,
+}
+
+/// What the page may ask for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "a page may ask for each of them alone")]
+pub(super) struct Capabilities {
+    /// `pause`, `run` and `step`.
+    pub(super) step: bool,
+    /// `break`.
+    pub(super) breakpoints: bool,
+    /// `counterfactual` over recorded perception.
+    pub(super) counterfactual: bool,
+    /// `counterfactual` in closed loop.
+    pub(super) closed_loop: bool,
+}
+
+/// A guard. Its index is its place in [`Hello::guards`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct GuardInfo {
+    /// The same index.
+    pub(super) index: usize,
+    /// The state to which it belongs. `None` for a global transition.
+    pub(super) state: Option<usize>,
+    /// Name of the target: a state, `exit` and a name, `Success` or `Failure`.
+    pub(super) target: String,
+    /// The guard, as in the policy.
+    pub(super) text: String,
+    /// The file that contains it. `None` for the policy itself.
+    pub(super) file: Option<String>,
+    /// Its line in that file, from 1.
+    pub(super) line: usize,
+    /// The parts of its condition in the order of the text. None for `after`.
+    pub(super) parts: Vec<PartInfo>,
+}
+
+/// A part of a condition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct PartInfo {
+    /// The part, as in the policy. It says what has to hold.
+    pub(super) text: String,
+    /// Unit of its margin. `None` for a bool.
+    pub(super) unit: Option<String>,
+}
+
+/// The statechart.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct ChartInfo {
+    /// The states. An outer state comes before its inner states.
+    pub(super) states: Vec<StateInfo>,
+    /// The transitions.
+    pub(super) transitions: Vec<TransitionInfo>,
+}
+
+/// A state. Its index is its place in [`ChartInfo::states`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct StateInfo {
+    /// Its name.
+    pub(super) name: String,
+    /// The state that contains it.
+    pub(super) parent: Option<usize>,
+    /// True if it is the initial state of the machine or of the state that contains it.
+    pub(super) initial: bool,
+    /// The behaviour that is its content.
+    pub(super) behaviour: Option<String>,
+}
+
+/// A transition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct TransitionInfo {
+    /// The state to which it belongs. `None` for every state.
+    pub(super) state: Option<usize>,
+    /// The state that it enters. `None` for an end of the run.
+    pub(super) target: Option<usize>,
+    /// `success` or `failure` for an end of the run.
+    pub(super) end: Option<&'static str>,
+    /// Index of its guard. `None` for a fallback transition, and if there are no guards.
+    pub(super) guard: Option<usize>,
+    /// The guard for people.
+    pub(super) text: String,
+}
+
+/// A value that a counterfactual may change.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct ParameterInfo {
+    /// The key in [`PageMessage::Counterfactual`].
+    pub(super) name: String,
+    /// Its value in the run (SI). For a choice, its number.
+    pub(super) value: f64,
+    /// Its SI unit. Empty for a number.
+    pub(super) unit: String,
+    /// The least value allowed.
+    pub(super) low: Option<f64>,
+    /// The greatest value allowed.
+    pub(super) high: Option<f64>,
+    /// The names of the values 0, 1, 2 and so on. Empty for a number.
+    pub(super) choices: Vec<String>,
+    /// What it means.
+    pub(super) meaning: String,
+    /// The guard whose threshold it is. `None` for a parameter of the policy.
+    pub(super) guard: Option<usize>,
+}
+
+/// An outline.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Outline {
+    /// Its points (m).
+    pub(super) points: Vec<[f64; 2]>,
+    /// True if the last point is joined to the first one.
+    pub(super) closed: bool,
+}
+
+/// The rig, in the frame of the body: the origin is the centre of mass, the first axis points forward, the second one to the left.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct RigInfo {
+    /// The corners of the platform (m).
+    pub(super) platform: Vec<[f64; 2]>,
+    /// The whiskers in the order of [`Hello::whiskers`].
+    pub(super) whiskers: Vec<WhiskerInfo>,
+}
+
+/// A whisker of the rig.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct WhiskerInfo {
+    /// Its base (m).
+    pub(super) base: [f64; 2],
+    /// Direction of the undeflected shaft (rad).
+    pub(super) direction: f64,
+    /// Length (m).
+    pub(super) length: f64,
+    /// Base angle (rad) above which perception regards it as touching.
+    pub(super) threshold: f64,
+}
+
+/// A breakpoint.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(super) struct BreakpointInfo {
+    /// The name of a state, or a condition.
+    pub(super) text: String,
+    /// The state, if it is one.
+    pub(super) state: Option<usize>,
+}
+
+/// New ticks.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Ticks {
+    /// Number of ticks that this connection has missed since its last `ticks`. `range` gets them.
+    pub(super) lost: usize,
+    /// The ticks, oldest first.
+    pub(super) frames: Vec<Arc<Frame>>,
+}
+
+/// A tick.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Frame {
+    /// Its index.
+    pub(super) tick: usize,
+    /// Time since the start of the run (s).
+    pub(super) time: f64,
+    /// The active states from the outermost to the innermost. Empty after the end of the machine.
+    pub(super) states: Vec<usize>,
+    /// Position of the platform's centre of mass (m) and its heading (rad).
+    pub(super) pose: [f64; 3],
+    /// The whiskers in the order of [`Hello::whiskers`].
+    pub(super) whiskers: Vec<WhiskerFrame>,
+    /// The guards that were tried last in this tick. Others were not evaluated.
+    pub(super) guards: Vec<GuardFrame>,
+    /// The guards of the transitions that were taken, in their order.
+    pub(super) taken: Vec<usize>,
+    /// Commanded velocity of the centre of mass (m/s, world frame) and yaw rate (rad/s).
+    pub(super) command: [f64; 3],
+    /// The recorded tips since the tick before.
+    pub(super) contour: Vec<ContourFrame>,
+    /// The contour reconstruction until now.
+    pub(super) metrics: Metrics,
+    /// The control loop. `None` if its times are not known.
+    #[serde(rename = "loop")]
+    pub(super) timing: Option<Timing>,
+    /// The messages that the policy has logged.
+    pub(super) messages: Vec<String>,
+}
+
+/// A whisker in a tick.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct WhiskerFrame {
+    /// Filtered base angle (rad), counter-clockwise positive.
+    pub(super) base_angle: f64,
+    /// True if it is regarded as touching.
+    pub(super) touching: bool,
+    /// The bent shaft from the base to the tip (m, world frame).
+    pub(super) shaft: Vec<[f64; 2]>,
+    /// Estimated tip (m, world frame).
+    pub(super) tip: Option<[f64; 2]>,
+}
+
+/// A guard in a tick.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct GuardFrame {
+    /// Its index.
+    pub(super) guard: usize,
+    /// True if its condition holds. True for `after`.
+    pub(super) met: bool,
+    /// For each part the distance from the value where it changes, in the unit of the part. It is positive if the part holds, and
+    /// negative by the amount that is missing. `None` for a bool.
+    pub(super) margins: Vec<Option<f64>>,
+    /// The parts that have to change, so that the condition holds.
+    pub(super) missing: Vec<usize>,
+    /// For a guard with a time, the time (s) since its condition holds or its state was entered.
+    pub(super) elapsed: Option<f64>,
+    /// The time (s) that is needed.
+    pub(super) needed: Option<f64>,
+}
+
+/// A recorded tip.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct ContourFrame {
+    /// Index of the whisker.
+    pub(super) whisker: usize,
+    /// Its position (m, world frame).
+    pub(super) point: [f64; 2],
+    /// Its standard deviation (m).
+    pub(super) spread: Option<f64>,
+    /// Its distance from the nearest outline (m). `None` if the scene is not known.
+    pub(super) error: Option<f64>,
+}
+
+/// Figures of the contour until a tick. Each is `None` if it is not known.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub(super) struct Metrics {
+    /// Mean distance of the recorded tips from the nearest outline (m).
+    pub(super) error: Option<f64>,
+    /// Share of the reference that was traced, 0 to 1. It is computed about once a second.
+    pub(super) coverage: Option<f64>,
+    /// Mean standard deviation of the recorded tips (m).
+    pub(super) spread: Option<f64>,
+}
+
+/// Times of the control loop in a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct Timing {
+    /// Wall time since the tick before (s).
+    pub(super) period: f64,
+    /// Wall time of perception, machine and motion (s).
+    pub(super) used: f64,
+    /// True if they took longer than the control period.
+    pub(super) overload: bool,
+}
+
+/// What the run does.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Status {
+    /// `running`, `paused` or `finished`.
+    pub(super) state: &'static str,
+    /// Why it is paused: `page`, `start` or `breakpoint`. Or the reason of the outcome.
+    pub(super) reason: Option<String>,
+    /// The breakpoint at which it is paused.
+    pub(super) breakpoint: Option<String>,
+    /// The outcome: `completed`, `timeout`, `failed` or `diverged`.
+    pub(super) verdict: Option<String>,
+    /// The figures of the whole contour, after the end of the run.
+    pub(super) metrics: Option<Metrics>,
+    /// Number of ticks until now.
+    pub(super) ticks: usize,
+    /// The program keeps every tick whose index is a multiple of this, and the newest ones.
+    pub(super) kept_every: usize,
+    /// The breakpoints.
+    pub(super) breakpoints: Vec<BreakpointInfo>,
+}
+
+/// Ticks of the past.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct History {
+    /// The first tick that was asked for.
+    pub(super) from: usize,
+    /// The tick after the last one.
+    pub(super) to: usize,
+    /// The kept ticks among them, at most as many as were asked for. Recorded tips of other ticks are in the next kept tick.
+    pub(super) frames: Vec<Arc<Frame>>,
+}
+
+/// A piece of a counterfactual.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Piece {
+    /// The number that the page has given it.
+    pub(super) id: u64,
+    /// The kind.
+    pub(super) kind: CounterfactualKind,
+    /// The ticks, oldest first.
+    pub(super) frames: Vec<CounterfactualFrame>,
+    /// The first tick in which the states differ from those of the run. Until there is one, the first tick in which the commands do.
+    pub(super) first_difference: Option<FirstDifference>,
+    /// True for the last piece.
+    pub(super) done: bool,
+    /// Why it ended: `end of the run`, `canceled`, or the outcome in closed loop. Only in the last piece.
+    pub(super) end: Option<String>,
+}
+
+/// A tick of a counterfactual.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct CounterfactualFrame {
+    /// Its index.
+    pub(super) tick: usize,
+    /// Time since the start of the run (s).
+    pub(super) time: f64,
+    /// The active states. Empty after the end of the machine.
+    pub(super) states: Vec<usize>,
+    /// The pose, in closed loop.
+    pub(super) pose: Option<[f64; 3]>,
+    /// The recorded tips, in closed loop.
+    pub(super) contour: Vec<[f64; 2]>,
+}
+
+/// The first tick in which a counterfactual differs from the run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct FirstDifference {
+    /// Its index.
+    pub(super) tick: usize,
+    /// Its time (s).
+    pub(super) time: f64,
+    /// True if the active states differ. False if only the commands do.
+    pub(super) states_differ: bool,
+    /// What the run did: the guard of the transition that it took, or `stays in` and its state.
+    pub(super) before: String,
+    /// What the changed policy does.
+    pub(super) after: String,
+}
+
+/// The kind of a counterfactual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum CounterfactualKind {
+    /// The changed policy has the recorded samples, and its commands move nothing.
+    Recorded,
+    /// The changed policy steers the platform in a simulation.
+    ClosedLoop,
+}
+
+/// A message from the page.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub(super) enum PageMessage {
+    /// Pauses the run.
+    Pause,
+    /// Continues the run.
+    Run,
+    /// Executes ticks of a paused run.
+    Step {
+        /// Their number.
+        ticks: u32,
+    },
+    /// Asks for ticks of the past.
+    Range {
+        /// The first tick.
+        from: usize,
+        /// The tick after the last one.
+        to: usize,
+        /// The largest number of ticks in the answer.
+        most: Option<usize>,
+    },
+    /// Changes the breakpoints. The answer is a `status`, or an `error`.
+    Break {
+        /// The name of a state, or a condition.
+        add: Option<String>,
+        /// The text of a breakpoint.
+        remove: Option<String>,
+    },
+    /// Asks what a changed policy would have done.
+    Counterfactual {
+        /// A number for the answer.
+        id: u64,
+        /// The first tick with the change.
+        tick: usize,
+        /// The kind.
+        kind: CounterfactualKind,
+        /// The changed values (SI), by the names of [`ParameterInfo`].
+        set: BTreeMap<String, f64>,
+    },
+    /// Stops a counterfactual.
+    Cancel {
+        /// Its number.
+        id: u64,
+    },
+}

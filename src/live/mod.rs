@@ -1,0 +1,34 @@
+//! The live page: a run while it happens, its past, and what a changed policy would have done.
+//!
+//! A [`Live`] serves the page and its stream. A [`LiveWatcher`] passes the ticks of a run on to it. The run never waits for a viewer.
+//! It waits only for its pace, and where a user has paused it.
+
+mod change;
+mod client;
+mod counterfactual;
+mod error;
+mod foxglove;
+mod frame;
+mod guards;
+mod hello;
+mod hub;
+#[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
+mod live;
+mod log;
+mod message;
+mod page;
+mod replay;
+mod request;
+mod sample_store;
+mod server;
+mod setup;
+mod shadow;
+mod socket;
+mod token;
+mod watcher;
+
+pub use error::LiveError;
+pub use live::{Live, LiveOptions};
+pub use replay::LiveReplay;
+pub use setup::RunSetup;
+pub use watcher::LiveWatcher;

@@ -1,0 +1,85 @@
+//! A recording as a world: it gives the recorded samples, whatever the command is.
+
+use std::sync::Arc;
+
+use super::setup::RunSetup;
+use crate::geometry::Point2;
+use crate::recording::RunRecording;
+use crate::run::{Run, Watcher, drive};
+use crate::scene::Stop;
+use crate::trial::Trial;
+use crate::world::{Fault, World};
+use vibrissa_runtime::control::{BindError, Control};
+use vibrissa_runtime::signal::{Command, Sample};
+
+/// A recording that is replayed for a page.
+#[derive(Debug)]
+pub struct LiveReplay<'r> {
+    recording: &'r RunRecording,
+    next: usize,
+}
+
+impl<'r> LiveReplay<'r> {
+    /// A replay of a recording from its start.
+    #[must_use]
+    pub fn new(recording: &'r RunRecording) -> Self {
+        Self { recording, next: 0 }
+    }
+
+    /// What a page has to know of the replay. `trial` is that of the recording, if its scenario is known.
+    #[must_use]
+    pub fn setup(&self, trial: Option<Trial>) -> RunSetup {
+        let (rig, program) = (self.recording.rig(), Arc::new(self.recording.program().clone()));
+        let identity = |key: &str| self.recording.identity().get(key).cloned();
+        let ticks = self.recording.samples().len();
+        let no_guards = "the recording has no text of its policy; record a run of the policy itself to see its guards";
+        RunSetup {
+            command: "replay",
+            scenario: identity("scenario").unwrap_or_default(),
+            world: identity("world"),
+            duration: Some(ticks as f64 / rig.sensing.control_rate),
+            known_ticks: Some(ticks),
+            scene: trial.as_ref().map(|trial| trial.scene.clone()),
+            trial,
+            program,
+            policy: self.recording.policy().cloned(),
+            no_guards: self.recording.policy().is_none().then(|| no_guards.to_owned()),
+            is_emulated: false,
+            rig: rig.clone(),
+        }
+    }
+
+    /// Replays the recording. The result is `None` if the watcher ended the replay.
+    ///
+    /// # Errors
+    /// [`BindError`] if the recorded rig does not have what the machine needs.
+    pub fn run(mut self, watcher: &mut impl Watcher) -> Result<Option<Run>, BindError> {
+        let (rig, program) = (self.recording.rig(), Arc::new(self.recording.program().clone()));
+        let period = rig.sensing.control_rate.recip();
+        let time = self.recording.samples().len() as f64 * period;
+        let stop = Stop { time, loop_closed: None, reached: None, succeeded: false, stalled: None };
+        let control = Control::simulated(rig, program)?;
+        Ok(drive(&mut self, control, &stop, period, watcher))
+    }
+}
+
+impl World for LiveReplay<'_> {
+    fn advance(&mut self, _: &Command) -> Result<&[Sample], Fault> {
+        let samples = self.recording.samples().get(self.next);
+        self.next += 1;
+        Ok(samples.map(Vec::as_slice).unwrap_or_default())
+    }
+
+    fn body_touches(&self) -> bool {
+        false
+    }
+
+    fn snapped_off(&self, _: usize) -> bool {
+        false
+    }
+
+    /// The true tips are not recorded.
+    fn tip(&self, _: usize) -> Point2 {
+        Point2::new(f64::NAN, f64::NAN)
+    }
+}

@@ -1,0 +1,114 @@
+//! A second control loop beside that of the run. It explains the guards, and its copies are where counterfactuals begin.
+
+use std::sync::Arc;
+
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{Observer, Standing, TransitionId, TriedGuard};
+use vibrissa_runtime::signal::{Command, Sample};
+
+use super::guards::GuardNumbers;
+use super::message::GuardFrame;
+use crate::inspect::{BreakpointTick, BreakpointWatch, Breakpoints};
+
+/// A control loop with the same samples as that of the run. If the policy has a text, its program explains the guards.
+#[derive(Debug, Clone)]
+pub(super) struct Shadow {
+    control: Control,
+    policy: Option<Arc<Breakpoints>>,
+    watch: BreakpointWatch,
+    observed: Observed,
+    ticks: usize,
+}
+
+/// What the machine has done in a tick.
+#[derive(Debug, Clone, Default)]
+struct Observed {
+    /// The guards that were tried after the last transition.
+    tried: Vec<(TransitionId, Standing)>,
+    /// The registers after the evaluation of these guards.
+    registers: Vec<f64>,
+    /// The transitions that were taken.
+    taken: Vec<TransitionId>,
+}
+
+impl Observer for Observed {
+    fn guard(&mut self, tried: &TriedGuard<'_>) {
+        self.tried.push((tried.transition, tried.standing));
+        // All guards of a state are evaluated before the first of them is reported.
+        if tried.transition.index == 0 {
+            self.registers.clear();
+            self.registers.extend_from_slice(tried.registers);
+        }
+    }
+
+    fn taken(&mut self, transition: TransitionId) {
+        self.taken.push(transition);
+        self.tried.clear();
+    }
+}
+
+impl Shadow {
+    /// A loop at the start of a run. `control` has the program of the explained policy, if there is one.
+    pub(super) fn new(control: Control, policy: Option<Arc<Breakpoints>>) -> Self {
+        Self { control, policy, watch: BreakpointWatch::default(), observed: Observed::default(), ticks: 0 }
+    }
+
+    /// Executes a tick. The result is the text of the breakpoint that it hits.
+    pub(super) fn tick(&mut self, samples: &[Sample]) -> (Command, Option<String>) {
+        self.observed.tried.clear();
+        self.observed.taken.clear();
+        let (command, _) = self.control.tick_observed(samples, &mut self.observed);
+        let tick = BreakpointTick {
+            time: self.control.perception().time(),
+            state: self.control.machine().state(),
+            has_entered: self.ticks == 0 || !self.observed.taken.is_empty(),
+            taken: &self.observed.taken,
+            registers: &self.observed.registers,
+        };
+        self.ticks += 1;
+        let policy = self.policy.as_ref().filter(|_| !self.has_ended());
+        (command, policy.and_then(|policy| self.watch.hit(policy, &tick)).map(|breakpoint| breakpoint.text.clone()))
+    }
+
+    /// True after the machine has failed or succeeded.
+    pub(super) fn has_ended(&self) -> bool {
+        let machine = self.control.machine();
+        machine.failure().is_some() || machine.success().is_some()
+    }
+
+    /// The explained policy, if it has a text.
+    pub(super) fn policy(&self) -> Option<&Breakpoints> {
+        self.policy.as_deref()
+    }
+
+    /// The control loop.
+    pub(super) fn control(&self) -> &Control {
+        &self.control
+    }
+
+    /// The guards of the newest tick.
+    pub(super) fn guards(&self, numbers: &GuardNumbers) -> Vec<GuardFrame> {
+        let Some(policy) = &self.policy else { return Vec::new() };
+        let frame = |&(id, standing): &(TransitionId, Standing)| {
+            let (guard, transition) = (numbers.number(id)?, policy.explained.transition(id)?);
+            let condition = transition.condition.as_ref();
+            let parts = condition.map(|condition| condition.judge(&self.observed.registers)).unwrap_or_default();
+            let missing = condition.map(|condition| condition.missing(&self.observed.registers)).unwrap_or_default();
+            let place = |leaf| parts.iter().position(|part| std::ptr::eq(part.leaf, leaf));
+            Some(GuardFrame {
+                guard,
+                met: standing.is_met,
+                margins: parts.iter().map(|part| Some(part.margin?.0).filter(|margin| margin.is_finite())).collect(),
+                missing: missing.iter().filter_map(|part| place(part.leaf)).collect(),
+                elapsed: standing.duration.map(|duration| duration.elapsed),
+                needed: standing.duration.map(|duration| duration.needed).filter(|needed| needed.is_finite()),
+            })
+        };
+        self.observed.tried.iter().filter_map(frame).collect()
+    }
+
+    /// The numbers of the guards of the transitions that the newest tick has taken.
+    pub(super) fn taken(&self, numbers: &GuardNumbers) -> Vec<usize> {
+        self.observed.taken.iter().filter_map(|&id| numbers.number(id)).collect()
+    }
+}

@@ -1,0 +1,213 @@
+//! The watcher of a run that a page shows.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::Instant;
+
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::Observer;
+use vibrissa_runtime::signal::Sample;
+
+use super::error::LiveError;
+use super::frame::Frames;
+use super::hello::{breakpoints, hello};
+use super::hub::{Hub, Pace};
+use super::log::{Executed, RunLog, TickResult};
+use super::message::{BreakpointInfo, Timing};
+use super::setup::RunSetup;
+use super::shadow::Shadow;
+use crate::diagnostic::{Diagnostic, Source};
+use crate::inspect::Breakpoints;
+use crate::recording::RecordedFrame;
+use crate::run::{Run, Trace, Watcher};
+
+/// Passes the ticks of a run on to the page, and makes the run wait where a user asked for it.
+pub struct LiveWatcher<'i> {
+    hub: Arc<Hub>,
+    log: Arc<RunLog>,
+    setup: RunSetup,
+    shadow: Shadow,
+    frames: Frames,
+    pace: Pace,
+    breaks_version: u64,
+    samples: Vec<Sample>,
+    began_tick: Instant,
+    last_tick: Option<Instant>,
+    /// True if a paused run has to end.
+    is_over: Box<dyn FnMut() -> bool + 'i>,
+    /// True if it had to end before its first tick.
+    has_to_end: bool,
+}
+
+impl<'i> LiveWatcher<'i> {
+    /// The watcher of a run that begins. `is_over` ends a paused run, for instance because a file has changed. The result has messages
+    /// for the user about breakpoints that the policy does not have.
+    pub(super) fn new(
+        hub: &Arc<Hub>,
+        setup: RunSetup,
+        (speed, is_paused): (Option<f64>, bool),
+        is_over: impl FnMut() -> bool + 'i,
+    ) -> Result<(Self, Vec<String>), LiveError> {
+        let breaks = hub.breakpoints();
+        let (policy, faults) = explained(&setup, &breaks.texts)?;
+        let control = control(&setup, policy.as_deref())?;
+        let bound: Vec<usize> = control.perception().fitted().map(|(_, in_rig)| in_rig).collect();
+        let (mut hello, numbers, changeable) = hello(&setup, control.machine().program(), policy.as_deref(), &bound);
+        hello.run = hub.next_run();
+        let infos = hello.breakpoints.clone();
+        let shadow = Shadow::new(control, policy);
+        let truth = setup.scene.as_ref().map(|scene| scene.truth.clone());
+        let frames = Frames::new(setup.rig.clone(), bound, truth);
+        let log = Arc::new(RunLog::new((hello, numbers, changeable), &setup, &shadow));
+        hub.set_breakpoints(breaks.texts, infos);
+        let breaks_version = hub.breakpoints_version();
+        hub.begin(Arc::clone(&log), is_paused);
+        let watcher = Self {
+            hub: Arc::clone(hub),
+            log,
+            setup,
+            shadow,
+            frames,
+            pace: Pace::new(speed),
+            breaks_version,
+            samples: Vec::new(),
+            began_tick: Instant::now(),
+            last_tick: None,
+            is_over: Box::new(is_over),
+            has_to_end: false,
+        };
+        Ok((watcher, faults))
+    }
+
+    /// Tells the page the outcome of the run.
+    pub fn finish(mut self, run: &Run) {
+        let metrics = self.frames.final_metrics(&run.trace);
+        self.hub.finish(run.outcome.name(), run.reason.clone(), metrics);
+    }
+
+    /// Takes new breakpoints over. The control loop that explains guards is then made again, and executes all ticks until now.
+    fn update_breakpoints(&mut self) {
+        let breaks = self.hub.breakpoints();
+        if breaks.version == self.breaks_version {
+            return;
+        }
+        self.breaks_version = breaks.version;
+        // The page gets its error where it adds a breakpoint.
+        let Ok((policy, _)) = explained(&self.setup, &breaks.texts) else { return };
+        let Ok(control) = control(&self.setup, policy.as_deref()) else { return };
+        let mut shadow = Shadow::new(control, policy);
+        self.log.past().repeat(&mut shadow);
+        self.shadow = shadow;
+    }
+
+    /// Waits until the next tick may begin.
+    fn wait(&mut self, time: f64) -> ControlFlow<()> {
+        self.hub.wait(&mut self.pace, time, &mut self.is_over)?;
+        self.update_breakpoints();
+        ControlFlow::Continue(())
+    }
+
+    /// The times of the newest tick. Those of an emulated loop are the perceived ones: a late tick shows an overload.
+    fn timing(&mut self, trace: &Trace) -> Option<Timing> {
+        if self.setup.is_emulated {
+            let [.., before, newest] = trace.ticks.as_slice() else { return None };
+            let period = newest.time - before.time;
+            return Some(Timing { period, used: 0.0, overload: period > 1.5 * self.log.hello.control_period });
+        }
+        let now = Instant::now();
+        let used = now.duration_since(self.began_tick).as_secs_f64();
+        let last = self.last_tick.replace(now)?;
+        let overload = used > self.log.hello.control_period;
+        Some(Timing { period: now.duration_since(last).as_secs_f64(), used, overload })
+    }
+}
+
+/// The explained policy of a run with breakpoints, as far as it has them, and what is wrong with the others.
+fn explained(setup: &RunSetup, texts: &[String]) -> Result<(Option<Arc<Breakpoints>>, Vec<String>), LiveError> {
+    let Some(source) = &setup.policy else { return Ok((None, Vec::new())) };
+    let (policy, others) = with_breakpoints(source, texts).map_err(|_| LiveError::Explain)?;
+    let fault = |text: &String| format!("the policy `{}` has no breakpoint `{text}`", setup.program.name);
+    Ok((Some(Arc::new(policy)), others.iter().map(fault).collect()))
+}
+
+/// A policy with breakpoints, as far as it has them, and the texts of the others.
+///
+/// # Errors
+/// Those of a policy that does not compile.
+fn with_breakpoints(source: &Source, texts: &[String]) -> Result<(Breakpoints, Vec<String>), Vec<Diagnostic>> {
+    let all = Breakpoints::new(source, texts);
+    if let Ok(policy) = all {
+        return Ok((policy, Vec::new()));
+    }
+    let is_usable = |text: &&String| Breakpoints::new(source, std::slice::from_ref(*text)).is_ok();
+    let (usable, others): (Vec<&String>, Vec<&String>) = texts.iter().partition(is_usable);
+    let usable: Vec<String> = usable.into_iter().cloned().collect();
+    let policy = Breakpoints::new(source, &usable).map_err(|(_, faults)| faults)?;
+    Ok((policy, others.into_iter().cloned().collect()))
+}
+
+/// The control loop that explains guards, at the start of a run.
+fn control(setup: &RunSetup, policy: Option<&Breakpoints>) -> Result<Control, LiveError> {
+    let program = match policy {
+        Some(policy) => Arc::new(policy.explained.with_parameters_of(&setup.program)),
+        None => Arc::clone(&setup.program),
+    };
+    Ok(Control::simulated(&setup.rig, program)?)
+}
+
+impl Observer for LiveWatcher<'_> {}
+
+impl Watcher for LiveWatcher<'_> {
+    fn before_tick(&mut self, samples: &[Sample]) {
+        self.samples.clear();
+        self.samples.extend_from_slice(samples);
+        if self.log.past().len() == 0 {
+            // A run that is to begin later waits here. If it has to end instead, it does so after its first tick.
+            self.has_to_end = self.wait(0.0).is_break();
+        }
+        self.began_tick = Instant::now();
+    }
+
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        let timing = self.timing(trace);
+        let (_, hit) = self.shadow.tick(&self.samples);
+        let Some(tick) = trace.ticks.last() else { return ControlFlow::Continue(()) };
+        let Some(frame) = self.frames.frame(trace, (&self.shadow, &self.log.numbers, &self.log), timing) else {
+            return ControlFlow::Continue(());
+        };
+        self.log.names.get_or_init(|| without_ticks(trace));
+        let (time, taken) = (tick.time, frame.taken.last().copied());
+        let raw = self.hub.has_foxglove_viewers().then(|| RecordedFrame::last(trace, self.samples.clone())).flatten();
+        let state = tick.state.filter(|_| !self.shadow.has_ended());
+        let result = TickResult { time, state, taken, command: tick.command };
+        self.log.past().push(Executed { frame, result, samples: &self.samples, shadow: &self.shadow, raw });
+        if let Some(breakpoint) = hit {
+            self.hub.pause_at(breakpoint);
+        }
+        if self.has_to_end { ControlFlow::Break(()) } else { self.wait(time) }
+    }
+}
+
+/// A trace with the names of a run and no ticks.
+fn without_ticks(trace: &Trace) -> Trace {
+    let mut empty = Trace { ticks: Vec::new(), marks: Vec::new(), messages: Vec::new(), ..trace.clone() };
+    empty.plots.iter_mut().for_each(|plot| plot.values.clear());
+    empty
+}
+
+/// The breakpoints with these texts, as far as a policy has them. It must have the `new` one.
+///
+/// # Errors
+/// What is wrong with the new one, for people.
+pub(super) fn breakpoints_with(
+    source: &Source,
+    texts: &[String],
+    new: Option<&String>,
+) -> Result<Vec<BreakpointInfo>, String> {
+    let fault = |faults: Vec<Diagnostic>| faults.first().map_or_else(String::new, |fault| fault.message.clone());
+    if let Some(new) = new {
+        Breakpoints::new(source, std::slice::from_ref(new)).map_err(|(_, faults)| fault(faults))?;
+    }
+    let (policy, _) = with_breakpoints(source, texts).map_err(fault)?;
+    Ok(breakpoints(&policy))
+}

@@ -1,0 +1,7 @@
+//! The live page as a browser meets it: the real program and a real WebSocket.
+
+mod access;
+mod counterfactual;
+mod foxglove;
+mod run;
+mod session;

@@ -1,0 +1,68 @@
+import { element } from "../shared/element.ts";
+import type { Frame } from "./protocol.ts";
+import { digits, quantity } from "./quantity.ts";
+import type { Run } from "./run.ts";
+import type { Panel, View } from "./view.ts";
+
+/** A figure: its name, what it means, and its text. */
+interface Figure {
+  name: string;
+  meaning: string;
+  text: (frame: Frame, run: Run) => string;
+}
+
+const length = (value: number | null): string => (value === null ? "–" : quantity(value, "m"));
+
+const FIGURES: readonly Figure[] = [
+  { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => length(metrics.error) },
+  { name: "coverage", meaning: "share of the reference that was traced", text: ({ metrics }) => (metrics.coverage === null ? "–" : `${digits(metrics.coverage * 100)} %`) },
+  { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => length(metrics.spread) },
+  { name: "period", meaning: "wall time since the tick before", text: ({ loop }) => (loop === null ? "–" : quantity(loop.period, "s")) },
+  { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => (loop === null ? "–" : quantity(loop.used, "s")) },
+  { name: "speed", meaning: "commanded speed", text: ({ command }) => quantity(Math.hypot(command[0], command[1]), "m/s") },
+];
+
+/** The number of shown messages. */
+const MESSAGES = 6;
+
+/** Figures of the shown tick, and the last messages of the policy. */
+export class Figures implements Panel {
+  readonly element: HTMLElement;
+  readonly #values = FIGURES.map(() => element("dd"));
+  readonly #overload = element("p", "overload");
+  readonly #messages = element("ul", "messages");
+  #known = "";
+
+  constructor() {
+    const list = element("dl", "figures");
+    FIGURES.forEach(({ name, meaning }, index) => {
+      const term = element("dt", "", name);
+      term.title = meaning;
+      list.append(element("div", "", term, this.#values[index] ?? ""));
+    });
+    this.element = element("section", "", element("h2", "", "Figures"), list, this.#overload, this.#messages);
+  }
+
+  update({ run, frame }: View): void {
+    if (frame === undefined) {
+      return;
+    }
+    FIGURES.forEach(({ text }, index) => {
+      const value = this.#values[index];
+      if (value) {
+        value.textContent = text(frame, run);
+      }
+    });
+    const { frames, last } = run.history;
+    const key = `${frame.tick} ${frames.length} ${last?.tick}`;
+    if (key === this.#known) {
+      return;
+    }
+    this.#known = key;
+    const until = frames.slice(0, run.history.indexAt(frame.tick) + 1);
+    const late = until.filter(({ loop }) => loop?.overload === true).length;
+    this.#overload.textContent = late === 0 ? "" : `${late} ${late === 1 ? "tick" : "ticks"} took longer than the control period.`;
+    const messages = until.flatMap(({ time, messages }) => messages.map((text) => `${time.toFixed(2)} s: ${text}`)).slice(-MESSAGES);
+    this.#messages.replaceChildren(...messages.map((text) => element("li", "", text)));
+  }
+}

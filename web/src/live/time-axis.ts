@@ -1,0 +1,32 @@
+/** The times (s) that the plots show, and their positions (px). */
+export class TimeAxis {
+  readonly from: number;
+  readonly to: number;
+  readonly left: number;
+  readonly right: number;
+
+  constructor(from: number, to: number, left: number, right: number) {
+    [this.from, this.to, this.left, this.right] = [from, Math.max(to, from + 1e-3), left, right];
+  }
+
+  x(time: number): number {
+    return this.left + ((time - this.from) / (this.to - this.from)) * (this.right - this.left);
+  }
+
+  time(x: number): number {
+    return this.from + ((x - this.left) / (this.right - this.left)) * (this.to - this.from);
+  }
+}
+
+/** Round numbers within a range, about `count` of them. */
+export function ticksOf(low: number, high: number, count: number): number[] {
+  const raw = (high - low) / count;
+  if (!(raw > 0) || !Number.isFinite(raw)) {
+    return [];
+  }
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999) ?? 10);
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
+}
