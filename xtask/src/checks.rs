@@ -93,11 +93,11 @@ const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 /// The features that are not there by default.
 pub(crate) const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
 
-/// In this order: what fails soonest comes first, and the core is tested before there need be any MuJoCo.
+/// In this order: what fails soonest comes first, and the core is compiled before there need be any MuJoCo. Its tests take too
+/// long for each change, so they are among the nightly ones (.github/workflows/nightly.yml).
 ///
-/// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation;
-/// for the second set of features only the package is compiled again, and nalgebra, which mujoco-rs asks more of.
-const CHECKS: [Check; 21] = [
+/// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation.
+const CHECKS: [Check; 20] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
@@ -106,37 +106,13 @@ const CHECKS: [Check; 21] = [
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
     check_in(
         // mujoco-rs's build script would stop at a directory that does not exist.
-        &[("MUJOCO_DYNAMIC_LINK_DIR", "/nonexistent"), SAME_CASES],
-        "tests of the core, without MuJoCo",
-        // These commands choose a simulator. All other tests would do here just what they do below, and are linted without
-        // MuJoCo too.
-        &[
-            "test",
-            "--package",
-            "vibrissa",
-            // It has no test of Cargo. But with it, dependencies have the features of the whole workspace.
-            "--package",
-            "vibrissa-python",
-            "--no-default-features",
-            "--test",
-            "program",
-            "--",
-            "command::run::",
-            "command::test::",
-            "command::mismatch::",
-            "command::program::",
-        ],
-    ),
-    Check { title: "book", work: Work::Book },
-    Check { title: "scripts of the pages", work: Work::Web },
-    Check { title: "set-up", work: Work::Setup },
-    check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
-    check(
-        "lints of the core",
+        &[("MUJOCO_DYNAMIC_LINK_DIR", "/nonexistent")],
+        "lints of the core, without MuJoCo",
         &[
             "clippy",
             "--package",
             "vibrissa",
+            // It has no test of Cargo. But with it, dependencies have the features of the whole workspace.
             "--package",
             "vibrissa-python",
             "--no-default-features",
@@ -146,6 +122,10 @@ const CHECKS: [Check; 21] = [
             "warnings",
         ],
     ),
+    Check { title: "book", work: Work::Book },
+    Check { title: "scripts of the pages", work: Work::Web },
+    Check { title: "set-up", work: Work::Setup },
+    check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
     check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
     Check { title: "tests of the runtime and of the robot on aarch64, under an emulator", work: Work::Aarch64 },
     // The tests have built them.
@@ -365,8 +345,9 @@ mod tests {
     }
 
     #[test]
-    fn the_core_is_tested_before_mujoco_is_fetched_and_the_rest_after() {
-        assert!(position("tests of the core, without MuJoCo") < position("set-up"));
+    fn the_core_is_compiled_before_mujoco_is_fetched_and_the_rest_after() {
+        let core = position("lints of the core, without MuJoCo");
+        assert!(core.is_some() && core < position("set-up"));
         assert!(position("set-up") < position("lints"));
         assert!(position("set-up") < position("tests"));
     }

@@ -59,7 +59,7 @@ impl Domain {
         let range = |low, high| Self::Range(Interval::new(low, high));
         match unknown {
             Unknown::Register(_) => Self::Range(Interval::ANYTHING),
-            Unknown::Time => range(0.0, 1e9),
+            Unknown::Time | Unknown::Body(BodyScalar::Decay) => range(0.0, 1e9),
             Unknown::Body(BodyScalar::Yaw) | Unknown::Whisker(_, WhiskerScalar::Yaw) => range(-YAW_LIMIT, YAW_LIMIT),
             // The simplest body follows its commands, so that value comes first.
             Unknown::Body(BodyScalar::Blocked) => Self::Values(vec![0.0, 1.0]),
@@ -67,7 +67,6 @@ impl Domain {
                 range(0.0, DISTANCE_LIMIT)
             }
             Unknown::Body(BodyScalar::Flexibility) => range(f64::MIN_POSITIVE, 1e9),
-            Unknown::Body(BodyScalar::Decay) => range(0.0, 1e9),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),

@@ -83,7 +83,7 @@ fn a_wrong_sign_for_one_side_is_found_and_shrunk_to_that_side_alone() {
     ];
     let property = "
 property \"turns any corner\" over convex-corner(angle in 30 deg .. 150 deg, speed in 2 .. 10 cm/s) {
-  expect run.completed
+  expect run.completed and run.coverage > 0.9
 }
 ";
     let (code, result) = tested(&mutated("planted-sign", &changes, property), &["--no-keep"]);

@@ -130,6 +130,14 @@ pub(super) const BENCH: Case = Case {
     is_long: true,
 };
 
+pub(super) const SERVICES: Case = Case {
+    name: "services",
+    prepare: policy,
+    arguments: |folder| words("services generate @/quick.fsm --out @/out", folder),
+    old,
+    is_long: true,
+};
+
 #[cfg(feature = "sim")]
 pub(super) const PARETO: Case = Case {
     name: "pareto",

@@ -7,7 +7,7 @@ use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use vibrissa::results::{Hashes, Identity, MeanStd, MismatchIdentity, Retrieval, RunResult};
+use vibrissa::results::{Hashes, Identity, LargestError, MeanStd, MismatchIdentity, Retrieval, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::Outcome;
 use vibrissa::score::Score;
@@ -152,8 +152,17 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     let mut run = run_with(&[tips]);
     run.trace.states = vec![attack.to_owned()];
     let score = Score::new(&run, &scene.truth, &scene.rig);
+    let worst = score.largest_error.unwrap();
+    assert_eq!((worst.tick, worst.tip_world), (2, Point2::new(5.03, 0.0)));
     let figures = RunFigures::new(&scene, attack, &run, &score);
     let mut failed = result("disk", 1e-4);
+    failed.largest_error = Some(LargestError {
+        error_mm: 1e3 * worst.error,
+        tip_m: worst.tip_world.coords.into(),
+        time_s: 0.1,
+        state: Some(attack.to_owned()),
+        whisker: attack.to_owned(),
+    });
     failed.outcome = Outcome::Failed;
     failed.reason = Some(attack.to_owned());
     let rows = [BenchRow::new(failed, true), BenchRow::new(result("box", 1e-4), true)];
