@@ -108,8 +108,10 @@ await serve(run, async (address) => {
     await expectTick(page, tick);
 
     // The chart is shown one level at a time.
-    await page.keyboard.press("u");
     const level = () => page.textContent(".path [aria-current]");
+    const deep = await level();
+    await page.keyboard.press("u");
+    await page.waitForFunction((deep) => document.querySelector(".path [aria-current]").textContent !== deep, deep);
     const outer = await level();
     await tabTo(page, ".box[aria-label*='inner states']");
     const inner = await page.evaluate(() => document.activeElement.getAttribute("aria-label").split(",")[0]);
