@@ -67,7 +67,7 @@
 //! | input texts and their errors | [`scenario`], [`policy`], [`outline`], [`diagnostic`], [`built_in`] |
 //! | scenes and exact geometry | [`scene`], [`solid`], [`geometry`], [`physics`] |
 //! | simulators | [`world`], [`mujoco`], [`quasi_static`] |
-//! | runs and their evaluation | [`request`], [`trial`], [`run`], [`score`], [`results`], [`inspect`], `recording` |
+//! | runs and their evaluation | [`request`], [`trial`], [`run`], [`score`], [`results`], [`inspect`], `recording`, `video` |
 //! | many runs | [`study`], [`family`], [`sweep`], [`tune`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
@@ -83,6 +83,8 @@
 //! | `recording` | yes | recordings of runs as MCAP files, and their replay |
 //! | `live` | yes | a page that shows a run while it happens |
 //! | `lsp` | no | the command `vibrissa lsp`, a language server for editors |
+//! | `render` | no | `run --video`, videos of runs. It needs EGL |
+//! | `viewer` | no | `run --view`, MuJoCo's window during a run |
 //! | `outlines` | no | outlines from SVG, DXF, CSV and STL files |
 //!
 //! Without `sim`, everything except the MuJoCo simulator works. No library is necessary then.
@@ -142,6 +144,8 @@ pub mod study;
 pub mod sweep;
 pub mod trial;
 pub mod tune;
+#[cfg(any(feature = "render", feature = "viewer"))]
+pub mod video;
 pub mod world;
 
 #[doc(hidden)]

@@ -12,6 +12,8 @@ use crate::file::OutputError;
 use crate::live::LiveError;
 use crate::load::LoadError;
 use crate::mismatch::MismatchError;
+#[cfg(feature = "viewer")]
+use crate::mujoco::WindowError;
 use crate::policy::chart::UnknownState;
 use crate::property::RegressionsError;
 #[cfg(feature = "recording")]
@@ -25,6 +27,8 @@ use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
 use crate::trial::{ExecuteError, StartError, Trial};
 use crate::tune::{AxisError, CandidateError};
+#[cfg(feature = "render")]
+use crate::video::VideoError;
 use vibrissa_robot::recording::{KeepError, WriteError};
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::{ArtifactError, SetError};
@@ -83,9 +87,10 @@ pub(super) enum Failure {
     #[cfg(feature = "live")]
     #[error(transparent)]
     Live(#[from] LiveError),
-    #[cfg(feature = "recording")]
-    #[error("--break ends a run before its recording is whole; add --live, whose page shows the breakpoints")]
-    BreakRecord,
+    #[error(
+        "--break ends a run before the output of {argument} is whole; add --live, whose page shows the breakpoints"
+    )]
+    BreakOutput { argument: &'static str },
     #[error("--break ends a run, and --watch begins the next one; add --live, whose page shows the breakpoints")]
     BreakWatch,
     #[cfg(feature = "live")]
@@ -207,9 +212,14 @@ pub(super) enum Failure {
     #[cfg(feature = "recording")]
     #[error("{}: {cause}", path.display())]
     RunRecording { path: PathBuf, cause: ReadRecordingError },
-    #[cfg(feature = "recording")]
-    #[error("--record writes one run, and there are {scenarios} scenarios; give one scenario")]
-    RecordOne { scenarios: usize },
+    #[error("{argument} is for one run, and there are {scenarios} scenarios; give one scenario")]
+    OneRun { argument: &'static str, scenarios: usize },
+    #[cfg(feature = "render")]
+    #[error("--video: {0}")]
+    Video(#[from] VideoError),
+    #[cfg(feature = "viewer")]
+    #[error("--view: {0}")]
+    Window(#[from] WindowError),
     #[cfg(feature = "recording")]
     #[error("{}: it is the recording of a robot, whose steps another policy cannot repeat; leave out --policy", path.display())]
     OtherPolicy { path: PathBuf },

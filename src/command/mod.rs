@@ -33,6 +33,7 @@ mod push;
 mod replay;
 mod reports;
 mod run;
+mod run_outputs;
 mod run_recording;
 #[cfg(test)]
 mod schema;

@@ -11,20 +11,18 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::inspect::{InspectionOptions, inspect};
 #[cfg(feature = "live")]
-use super::live::{LivePage, REAL_TIME, begin, serve_on};
+use super::live::LivePage;
 use super::options::{Format, MismatchOptions, Settings, WorldOptions};
 use super::output;
 use super::reports::Reports;
-use super::trials::run_with_bar;
+use super::run_outputs::RunOutputs;
+#[cfg(any(feature = "render", feature = "viewer"))]
+use super::run_outputs::VideoOptions;
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
-#[cfg(feature = "live")]
-use crate::live::{Live, LiveWatcher, RunSetup};
 use crate::load::GivenMismatch;
-#[cfg(feature = "recording")]
-use crate::recording::Recorder;
 use crate::request::{Input, PolicyInput, TrialRequest};
 use crate::results::tick_lines;
 use crate::run::Run;
@@ -60,7 +58,10 @@ pub(super) struct RunArguments {
     /// Record the run into this MCAP file, for viewers and for `vibrissa replay`. With one scenario
     #[cfg(feature = "recording")]
     #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "transitions"])]
-    record: Option<PathBuf>,
+    pub(super) record: Option<PathBuf>,
+    #[cfg(any(feature = "render", feature = "viewer"))]
+    #[command(flatten)]
+    pub(super) video: VideoOptions,
     #[command(flatten)]
     pub(super) inspection: InspectionOptions,
     #[cfg(feature = "live")]
@@ -86,41 +87,20 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         return watch(arguments);
     }
     if arguments.inspection.is_given() && !is_live {
-        #[cfg(feature = "recording")]
-        if arguments.record.is_some() {
-            return Err(Failure::BreakRecord);
+        if let Some(argument) = RunOutputs::first_given(arguments) {
+            return Err(Failure::BreakOutput { argument });
         }
         return inspect(arguments, &mut files);
     }
     let prepared = prepared_trials(arguments, &mut files)?;
-    #[cfg(feature = "recording")]
-    let mut record = record_file(arguments, &mut files)?;
     let trials = prepared.iter().map(|prepared| &prepared.trial);
     let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
     let mut ticks = TickFile::new(arguments, &mut files)?;
-    #[cfg(feature = "live")]
-    let live = arguments.live.start(REAL_TIME, &arguments.inspection.breakpoints)?;
+    let mut outputs = RunOutputs::new(arguments, &mut files)?;
     let mut exit = Exit::Done;
     for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
-        #[cfg(feature = "recording")]
-        let (file, recorder) = record.take().map(|file| recorder(prepared, file)).transpose()?.unzip();
-        #[cfg(not(feature = "recording"))]
-        let recorder = ();
-        #[cfg(feature = "live")]
-        let page = live.as_ref().map(|live| page(prepared, live)).transpose()?;
-        #[cfg(not(feature = "live"))]
-        let page = ();
-        let mut watcher = (recorder, page);
-        let finished = run_with_bar(trial, &mut watcher)?;
-        #[cfg(feature = "live")]
-        if let Some(page) = watcher.1 {
-            page.finish(&finished.run);
-        }
-        #[cfg(feature = "recording")]
-        if let (Some(file), Some(recorder)) = (file, watcher.0) {
-            file.write(recorder.finish(&finished.run)?)?;
-        }
+        let finished = outputs.run(prepared)?;
         reports.add(index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
@@ -129,33 +109,8 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     }
     ticks.write()?;
     reports.show(arguments.format)?;
-    #[cfg(feature = "live")]
-    if let Some(live) = live {
-        serve_on(&live);
-    }
+    outputs.serve_on();
     Ok(exit)
-}
-
-/// The watcher that shows a trial on a page.
-#[cfg(feature = "live")]
-fn page<'i>(prepared: &Prepared, live: &Live) -> Result<LiveWatcher<'i>, Failure> {
-    begin(live, RunSetup::simulated(&prepared.trial, prepared.text.clone()), || false)
-}
-
-/// The file of `--record`, if it is wanted.
-#[cfg(feature = "recording")]
-fn record_file(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Option<Output>, Failure> {
-    if arguments.record.is_some() && arguments.scenarios.len() > 1 {
-        return Err(Failure::RecordOne { scenarios: arguments.scenarios.len() });
-    }
-    Ok(arguments.record.as_ref().map(|path| files.output("--record", path)).transpose()?)
-}
-
-/// The watcher that records a trial into a file.
-#[cfg(feature = "recording")]
-fn recorder(prepared: &Prepared, file: Output) -> Result<(Output, Recorder), Failure> {
-    let Prepared { trial, text, artifact } = prepared;
-    Ok((file, Recorder::new(trial, artifact, text.clone())?))
 }
 
 /// A trial with the policy that it was made from.

@@ -18,6 +18,7 @@ use crate::results::{Collisions, Document, Failsafes, Inclination, RunResult};
 use crate::run::{Trace, Watcher};
 use crate::scene::Violation;
 use crate::trial::{Inputs, Trial, TrialResult, in_parallel, short_hash};
+use crate::world::World;
 
 /// The kept part of a trial's result. A trace is large.
 pub(super) struct Finished {
@@ -122,6 +123,10 @@ impl<W: Watcher, F> Observer for EachSecond<'_, W, F> {
 impl<W: Watcher, F: FnMut(&Trace) -> ControlFlow<()>> Watcher for EachSecond<'_, W, F> {
     fn before_tick(&mut self, samples: &[Sample]) {
         self.watcher.before_tick(samples);
+    }
+
+    fn in_world(&mut self, trace: &Trace, world: &dyn World) {
+        self.watcher.in_world(trace, world);
     }
 
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {

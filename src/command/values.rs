@@ -21,6 +21,10 @@ const MAX_CASES: usize = 100_000;
 /// Largest deviation of starts (m), larger than any scene.
 const MAX_JITTER: f64 = 10.0;
 
+/// Sides of a video (px).
+#[cfg(feature = "render")]
+const PICTURE_SIDES: RangeInclusive<u32> = 64..=4096;
+
 /// Largest time of a recording (s), longer than any robot runs.
 const MAX_TIME: f64 = 1e9;
 
@@ -55,6 +59,27 @@ pub(super) fn parse_depth(text: &str) -> Result<usize, String> {
 /// A seed, or the number of a scene.
 pub(super) fn parse_seed(text: &str) -> Result<u64, String> {
     parse_whole(text, 0..=u64::MAX)
+}
+
+/// Even width and height of a video (px).
+#[cfg(feature = "render")]
+pub(super) fn parse_picture_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| PICTURE_SIDES.contains(side) && side % 2 == 0);
+    let sides = text.trim().split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| "write two even numbers from 64 to 4096, such as 640x480".to_owned())
+}
+
+/// Frames per second of a video. A GIF cannot show more than 50.
+#[cfg(feature = "render")]
+pub(super) fn parse_video_rate(text: &str) -> Result<u32, String> {
+    parse_whole(text, 1..=50)
+}
+
+/// Simulated seconds per second of a video.
+#[cfg(feature = "render")]
+pub(super) fn parse_video_speed(text: &str) -> Result<f64, String> {
+    let speed = text.trim().parse().ok().filter(|speed| (0.01..=1000.0).contains(speed));
+    speed.ok_or_else(|| "write a number from 0.01 to 1000, such as 10".to_owned())
 }
 
 fn parse_whole<T: FromStr + PartialOrd + Display>(text: &str, range: RangeInclusive<T>) -> Result<T, String> {

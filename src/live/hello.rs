@@ -1,5 +1,7 @@
 //! The first message of a run.
 
+use std::collections::HashMap;
+
 use vibrissa_runtime::machine::{Program, Target, Transition, TransitionId};
 use vibrissa_runtime::rig::Rig;
 
@@ -13,6 +15,7 @@ use super::message::{
 use super::setup::RunSetup;
 use crate::geometry::Contour;
 use crate::inspect::{Breakpoint, Breakpoints};
+use crate::policy;
 use crate::policy::explain::{Explained, Judged};
 use crate::recording::outline_points;
 use crate::scene::Scene;
@@ -51,7 +54,7 @@ pub(super) fn hello(
         },
         whiskers: bound.iter().filter_map(|&index| Some(setup.rig.whiskers.get(index)?.name.clone())).collect(),
         no_guards: setup.no_guards.clone().filter(|_| guards.is_empty()),
-        chart: chart(program, &guards, &numbers),
+        chart: chart(program, &guards, &numbers, behaviours(setup)),
         guards,
         parameters,
         scene: setup.scene.as_ref().map(outlines),
@@ -88,7 +91,19 @@ fn guards(policy: &Explained, numbers: &GuardNumbers) -> Vec<GuardInfo> {
     numbers.transitions().filter_map(info).collect()
 }
 
-fn chart(program: &Program, guards: &[GuardInfo], numbers: &GuardNumbers) -> ChartInfo {
+/// The behaviours of states, with their arguments, by the indices of the states.
+fn behaviours(setup: &RunSetup) -> HashMap<usize, String> {
+    let chart = setup.policy.as_ref().and_then(|text| policy::chart(text).ok());
+    let states = chart.into_iter().flat_map(|chart| chart.states);
+    states.filter_map(|state| Some((state.index, state.behaviour?))).collect()
+}
+
+fn chart(
+    program: &Program,
+    guards: &[GuardInfo],
+    numbers: &GuardNumbers,
+    mut behaviours: HashMap<usize, String>,
+) -> ChartInfo {
     let outermost = program.outward(program.initial).last();
     let is_initial = |index: usize, parent: Option<usize>| match parent.and_then(|parent| program.states.get(parent)) {
         Some(parent) => parent.initial.as_ref().is_some_and(|(initial, _)| *initial == index),
@@ -98,7 +113,7 @@ fn chart(program: &Program, guards: &[GuardInfo], numbers: &GuardNumbers) -> Cha
         name: state.name.to_string(),
         parent: state.parent,
         initial: is_initial(index, state.parent),
-        behaviour: None,
+        behaviour: behaviours.remove(&index),
     });
     let drawn = |state: Option<usize>, target: &Target, guard: Option<usize>, text: String| {
         let (target, end) = match target {

@@ -138,7 +138,7 @@ pub(super) struct StateInfo {
     pub(super) parent: Option<usize>,
     /// True if it is the initial state of the machine or of the state that contains it.
     pub(super) initial: bool,
-    /// The behaviour that is its content.
+    /// The behaviour that is its content, with its arguments.
     pub(super) behaviour: Option<String>,
 }
 

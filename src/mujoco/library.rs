@@ -6,6 +6,8 @@
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::error::Error as _;
+#[cfg(any(feature = "render", feature = "viewer"))]
+use std::ffi::c_uchar;
 use std::ffi::{c_char, c_int, c_void};
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};
@@ -13,6 +15,10 @@ use std::sync::{LazyLock, OnceLock};
 use libloading::Library;
 use mujoco_rs::mujoco_c;
 use mujoco_rs::mujoco_c::{mjData, mjLogConfig, mjModel, mjVERSION_HEADER, mjVFS, mjfLogHandler};
+#[cfg(feature = "viewer")]
+use mujoco_rs::mujoco_c::{mjOption, mjSpec, mjVisual};
+#[cfg(any(feature = "render", feature = "viewer"))]
+use mujoco_rs::mujoco_c::{mjrContext, mjrRect, mjvCamera, mjvGeom, mjvOption, mjvPerturb, mjvScene};
 
 /// The reason why MuJoCo's library cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -102,26 +108,29 @@ fn functions() -> &'static Functions {
     })
 }
 
-/// Defines the forwarding functions and the table of the library's functions. A signature that differs from mujoco-rs
-/// does not compile. A missing function would link the program to the library again; a test checks this.
+/// Defines the forwarding functions and the table of the library's functions, each group only under its attribute. A
+/// signature that differs from mujoco-rs does not compile. A missing function would link the program to the library
+/// again; a test checks this.
 macro_rules! pass_on {
-    ($(fn $name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
+    ($(#[$cfg:meta] { $(fn $name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)* })*) => {
         #[expect(non_snake_case, reason = "MuJoCo's names")]
         struct Functions {
-            $($name: unsafe extern "C" fn($($type),*) $(-> $result)?,)*
+            $($(#[$cfg] $name: unsafe extern "C" fn($($type),*) $(-> $result)?,)*)*
         }
 
         impl Functions {
             fn of(library: &Library) -> Result<Self, libloading::Error> {
                 #[expect(unsafe_code, reason = "a library does not say what its functions take")]
                 // SAFETY: the file name contains MuJoCo's version, and the signatures are those of that version.
-                unsafe { Ok(Self { $($name: *library.get(stringify!($name))?,)* }) }
+                unsafe { Ok(Self { $($(#[$cfg] $name: *library.get(stringify!($name))?,)*)* }) }
             }
         }
 
-        $(
+        $($(
+            #[$cfg]
             const _: unsafe extern "C" fn($($type),*) $(-> $result)? = mujoco_c::$name;
 
+            #[$cfg]
             #[expect(unsafe_code, reason = "mujoco-rs leaves the function to the linker")]
             // SAFETY: the name is unique in the program. The caller must meet the requirements of the function in the
             // library.
@@ -129,27 +138,129 @@ macro_rules! pass_on {
             unsafe extern "C" fn $name($($argument: $type),*) $(-> $result)? {
                 unsafe { (functions().$name)($($argument),*) }
             }
-        )*
+        )*)*
     };
 }
 
 pass_on! {
-    fn mj_addBufferVFS(vfs: *mut mjVFS, name: *const c_char, buffer: *const c_void, length: c_int) -> c_int;
-    fn mj_defaultVFS(vfs: *mut mjVFS);
-    fn mj_deleteData(data: *mut mjData);
-    fn mj_deleteModel(model: *mut mjModel);
-    fn mj_deleteVFS(vfs: *mut mjVFS);
-    fn mj_energyPos(model: *const mjModel, data: *mut mjData);
-    fn mj_energyVel(model: *const mjModel, data: *mut mjData);
-    fn mj_forward(model: *const mjModel, data: *mut mjData);
-    fn mj_loadXML(file: *const c_char, vfs: *const mjVFS, error: *mut c_char, length: c_int) -> *mut mjModel;
-    fn mj_makeData(model: *const mjModel) -> *mut mjData;
-    fn mj_name2id(model: *const mjModel, kind: c_int, name: *const c_char) -> c_int;
-    fn mj_resetDataKeyframe(model: *const mjModel, data: *mut mjData, key: c_int);
-    fn mj_step(model: *const mjModel, data: *mut mjData);
-    fn mj_version() -> c_int;
-    fn mj_versionString() -> *const c_char;
-    fn mju_getLogConfig() -> mjLogConfig;
-    fn mju_setLogConfig(config: mjLogConfig);
-    fn mju_setLogHandler(handler: mjfLogHandler) -> mjfLogHandler;
+    #[cfg(feature = "sim")] {
+        fn mj_addBufferVFS(vfs: *mut mjVFS, name: *const c_char, buffer: *const c_void, length: c_int) -> c_int;
+        fn mj_defaultVFS(vfs: *mut mjVFS);
+        fn mj_deleteData(data: *mut mjData);
+        fn mj_deleteModel(model: *mut mjModel);
+        fn mj_deleteVFS(vfs: *mut mjVFS);
+        fn mj_energyPos(model: *const mjModel, data: *mut mjData);
+        fn mj_energyVel(model: *const mjModel, data: *mut mjData);
+        fn mj_forward(model: *const mjModel, data: *mut mjData);
+        fn mj_loadXML(file: *const c_char, vfs: *const mjVFS, error: *mut c_char, length: c_int) -> *mut mjModel;
+        fn mj_makeData(model: *const mjModel) -> *mut mjData;
+        fn mj_name2id(model: *const mjModel, kind: c_int, name: *const c_char) -> c_int;
+        fn mj_resetDataKeyframe(model: *const mjModel, data: *mut mjData, key: c_int);
+        fn mj_step(model: *const mjModel, data: *mut mjData);
+        fn mj_version() -> c_int;
+        fn mj_versionString() -> *const c_char;
+        fn mju_getLogConfig() -> mjLogConfig;
+        fn mju_setLogConfig(config: mjLogConfig);
+        fn mju_setLogHandler(handler: mjfLogHandler) -> mjfLogHandler;
+    }
+    #[cfg(any(feature = "render", feature = "viewer"))] {
+        fn mjr_changeFont(scale: c_int, context: *mut mjrContext);
+        fn mjr_defaultContext(context: *mut mjrContext);
+        fn mjr_freeContext(context: *mut mjrContext);
+        fn mjr_makeContext(model: *const mjModel, context: *mut mjrContext, font_scale: c_int);
+        fn mjr_readPixels(rgb: *mut c_uchar, depth: *mut f32, viewport: mjrRect, context: *const mjrContext);
+        fn mjr_render(viewport: mjrRect, scene: *mut mjvScene, context: *const mjrContext);
+        fn mjr_setBuffer(buffer: c_int, context: *mut mjrContext);
+        fn mjv_connector(geom: *mut mjvGeom, kind: c_int, width: f64, from: *const [f64; 3], to: *const [f64; 3]);
+        fn mjv_defaultCamera(camera: *mut mjvCamera);
+        fn mjv_defaultOption(option: *mut mjvOption);
+        fn mjv_defaultPerturb(perturbation: *mut mjvPerturb);
+        fn mjv_defaultScene(scene: *mut mjvScene);
+        fn mjv_freeScene(scene: *mut mjvScene);
+        fn mjv_initGeom(
+            geom: *mut mjvGeom,
+            kind: c_int,
+            size: *const [f64; 3],
+            position: *const [f64; 3],
+            orientation: *const [f64; 9],
+            colour: *const [f32; 4]
+        );
+        fn mjv_makeScene(model: *const mjModel, scene: *mut mjvScene, most_geoms: c_int);
+        fn mjv_updateScene(
+            model: *const mjModel,
+            data: *mut mjData,
+            option: *const mjvOption,
+            perturbation: *const mjvPerturb,
+            camera: *mut mjvCamera,
+            categories: c_int,
+            scene: *mut mjvScene
+        );
+    }    #[cfg(feature = "viewer")] {
+        fn mj_actuatorInputName(model: *const mjModel, actuator: c_int, input: c_int) -> *const c_char;
+        fn mj_compile(spec: *mut mjSpec, vfs: *const mjVFS) -> *mut mjModel;
+        fn mj_copyData(to: *mut mjData, model: *const mjModel, from: *const mjData) -> *mut mjData;
+        fn mj_copyModel(to: *mut mjModel, from: *const mjModel) -> *mut mjModel;
+        fn mj_defaultOption(option: *mut mjOption);
+        fn mj_defaultVisual(visual: *mut mjVisual);
+        fn mj_deleteSpec(spec: *mut mjSpec);
+        fn mj_getState(model: *const mjModel, data: *const mjData, state: *mut f64, parts: c_int);
+        fn mj_id2name(model: *const mjModel, kind: c_int, id: c_int) -> *const c_char;
+        fn mj_makeSpec() -> *mut mjSpec;
+        fn mj_resetData(model: *const mjModel, data: *mut mjData);
+        fn mj_setState(model: *const mjModel, data: *mut mjData, state: *const f64, parts: c_int);
+        fn mj_stateSize(model: *const mjModel, parts: c_int) -> c_int;
+        fn mjr_overlay(
+            font: c_int,
+            place: c_int,
+            viewport: mjrRect,
+            left: *const c_char,
+            right: *const c_char,
+            context: *const mjrContext
+        );
+        fn mjr_uploadHField(model: *const mjModel, context: *const mjrContext, field: c_int);
+        fn mjr_uploadMesh(model: *const mjModel, context: *const mjrContext, mesh: c_int);
+        fn mjr_uploadTexture(model: *const mjModel, context: *const mjrContext, texture: c_int);
+        fn mjs_getError(spec: *mut mjSpec) -> *const c_char;
+        fn mju_normalize3(vector: *mut [f64; 3]) -> f64;
+        fn mju_normalize4(vector: *mut [f64; 4]) -> f64;
+        fn mju_quat2Vel(velocity: *mut [f64; 3], rotation: *const [f64; 4], time: f64);
+        fn mjv_applyPerturbForce(model: *const mjModel, data: *mut mjData, perturbation: *const mjvPerturb);
+        fn mjv_applyPerturbPose(
+            model: *const mjModel,
+            data: *mut mjData,
+            perturbation: *const mjvPerturb,
+            is_paused: c_int
+        );
+        fn mjv_copyData(to: *mut mjData, model: *const mjModel, from: *const mjData) -> *mut mjData;
+        fn mjv_defaultFreeCamera(model: *const mjModel, camera: *mut mjvCamera);
+        fn mjv_initPerturb(
+            model: *const mjModel,
+            data: *mut mjData,
+            scene: *const mjvScene,
+            perturbation: *mut mjvPerturb
+        );
+        fn mjv_moveCamera(model: *const mjModel, action: c_int, x: f64, y: f64, camera: *mut mjvCamera);
+        fn mjv_movePerturb(
+            model: *const mjModel,
+            data: *const mjData,
+            action: c_int,
+            x: f64,
+            y: f64,
+            scene: *const mjvScene,
+            perturbation: *mut mjvPerturb
+        );
+        fn mjv_select(
+            model: *const mjModel,
+            data: *const mjData,
+            option: *const mjvOption,
+            aspect: f64,
+            x: f64,
+            y: f64,
+            scene: *const mjvScene,
+            point: *mut [f64; 3],
+            geom: *mut c_int,
+            flex: *mut c_int,
+            skin: *mut c_int
+        ) -> c_int;
+    }
 }

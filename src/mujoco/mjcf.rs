@@ -68,7 +68,7 @@ pub(crate) fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start:
 }
 
 /// The parts of solids in the scope, ascending, with the names of their geoms.
-fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)> {
+pub(super) fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)> {
     let all = solids.iter().flat_map(Solid::parts).count();
     let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
     let parts = solids.iter().flat_map(Solid::parts).enumerate().filter(|(index, _)| scope.has_part(*index));
@@ -111,12 +111,11 @@ fn write_model(
     }
     let contacts = Contacts::with(parts.len(), physics, scope);
     contacts.write_defaults(xml, physics)?;
-    let half_height =
-        if physics.shafts == ShaftModel::SpatialChain { 0.5 * physics.object_height } else { HALF_HEIGHT };
+    let half_height = half_height(physics);
     write_assets(xml, &rig.platform, parts, half_height)?;
     writeln!(xml, r"  <worldbody>")?;
     for (name, part) in parts {
-        write_part(xml, name, part, half_height, contacts)?;
+        write_part(xml, name, part, half_height, contacts.of_part())?;
     }
     write_platform(xml, rig, physics, contacts, scope)?;
     writeln!(xml, r"  </worldbody>")?;
@@ -133,6 +132,11 @@ fn write_model(
     }
     write_start(xml, rig, physics, start, scope)?;
     writeln!(xml, r"</mujoco>")
+}
+
+/// Half of the height (m) of objects.
+pub(super) fn half_height(physics: &Physics) -> f64 {
+    if physics.shafts == ShaftModel::SpatialChain { 0.5 * physics.object_height } else { HALF_HEIGHT }
 }
 
 fn write_extension(xml: &mut String, rig: &Rig, scope: &Scope) -> fmt::Result {
@@ -154,7 +158,12 @@ fn tolerance(physics: &Physics) -> &'static str {
     if physics.solver == Solver::ProjectedGaussSeidel { r#" tolerance="1e-6""# } else { "" }
 }
 
-fn write_assets(xml: &mut String, platform: &Platform, parts: &[(String, &Part)], half_height: f64) -> fmt::Result {
+pub(super) fn write_assets(
+    xml: &mut String,
+    platform: &Platform,
+    parts: &[(String, &Part)],
+    half_height: f64,
+) -> fmt::Result {
     writeln!(xml, r"  <asset>")?;
     write_prism(xml, "platform", &platform.outline_body(), HALF_HEIGHT)?;
     for (name, part) in parts {
@@ -181,15 +190,15 @@ fn write_prism(xml: &mut String, name: &str, outline: &[Point2], half_height: f6
     writeln!(xml, r#""/>"#)
 }
 
-fn write_part(xml: &mut String, name: &str, part: &Part, half_height: f64, contacts: Contacts) -> fmt::Result {
-    let mask = contacts.of_part();
+/// Writes the geom of a part, with further `attributes`.
+pub(super) fn write_part(xml: &mut String, name: &str, part: &Part, half_height: f64, attributes: &str) -> fmt::Result {
     match part {
         Part::Cylinder { centre, radius } => writeln!(
             xml,
-            r#"    <geom name="{name}" type="cylinder" pos="{} {} 0" size="{radius} {half_height}" {mask}/>"#,
+            r#"    <geom name="{name}" type="cylinder" pos="{} {} 0" size="{radius} {half_height}" {attributes}/>"#,
             centre.x, centre.y
         ),
-        Part::Prism { .. } => writeln!(xml, r#"    <geom name="{name}" type="mesh" mesh="{name}" {mask}/>"#),
+        Part::Prism { .. } => writeln!(xml, r#"    <geom name="{name}" type="mesh" mesh="{name}" {attributes}/>"#),
     }
 }
 

@@ -19,6 +19,8 @@ mod model_selector;
 #[cfg(feature = "sim")]
 mod plugin;
 mod prune;
+#[cfg(any(feature = "render", feature = "viewer"))]
+pub(crate) mod visual;
 #[cfg(feature = "sim")]
 mod world;
 
@@ -32,5 +34,11 @@ pub(crate) use mjcf::{mjcf_within, part_names};
 #[cfg(feature = "sim")]
 pub use plugin::PluginError;
 pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigid};
+#[cfg(any(feature = "render", feature = "viewer"))]
+pub use visual::Camera;
+#[cfg(feature = "render")]
+pub use visual::RenderError;
+#[cfg(feature = "viewer")]
+pub use visual::WindowError;
 #[cfg(feature = "sim")]
 pub use world::{MujocoError, MujocoWorld};

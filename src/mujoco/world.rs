@@ -3,8 +3,8 @@
 use crate::geometry::{Point2, Pose, unit};
 use crate::physics::{Physics, ShaftModel};
 use crate::solid::Solid;
-use crate::world::{Fault, OutOfPlane, SNAP_OFF_SPEED, World};
-use crate::world::{Sensors, whole};
+use crate::world::{Fault, OutOfPlane, Posture, SNAP_OFF_SPEED, World};
+use crate::world::{Sensors, raised, whole};
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{Command, Sample};
 
@@ -274,6 +274,22 @@ impl World for MujocoWorld {
 
     fn tip(&self, whisker: usize) -> Point2 {
         self.tip_and_height(whisker).0
+    }
+
+    fn posture(&self) -> Option<Posture> {
+        let body = self.engine.body();
+        let shaft = |(index, whisker): (usize, &Whisker)| {
+            let mut points = vec![raised(body.point_to_world(whisker.base_body), 0.0)];
+            let length = whisker.shaft.link_length();
+            let ends = self.engine.links(&self.rig, index).map(|link| link.point(length));
+            points.extend(ends.map(|(end, height)| raised(end, height)));
+            if points.len() == 1 {
+                let (tip, height) = self.tip_and_height(index);
+                points.push(raised(tip, height));
+            }
+            points
+        };
+        Some(Posture { body, shafts: self.rig.whiskers.iter().enumerate().map(shaft).collect() })
     }
 
     fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {

@@ -81,10 +81,13 @@ impl Rod {
         self.radii[link]
     }
 
-    /// The far end of the chain (m, world frame) in a shape, also if its [ends](Shape::ends) are not updated.
-    pub(super) fn tip(&self, shape: &Shape) -> Point2 {
+    /// The far ends of the links (m, world frame) in a shape, also if its [ends](Shape::ends) are not updated.
+    pub(super) fn ends(&self, shape: &Shape) -> impl Iterator<Item = Point2> {
         let directions = shape.angles.iter().zip(&self.rest).map(|(angle, rest)| shape.base.heading + rest + angle);
-        shape.base.position + self.link * directions.map(unit).sum::<Vector2>()
+        directions.scan(Vector2::zeros(), |sum, direction| {
+            *sum += unit(direction);
+            Some(shape.base.position + self.link * *sum)
+        })
     }
 
     /// Angle of the base hinge in equilibrium (rad).

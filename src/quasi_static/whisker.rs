@@ -98,8 +98,13 @@ impl QuasiStaticWhisker {
 
     /// The position of the tip (m, world frame).
     pub(super) fn tip(&self) -> Point2 {
-        // The link ends of a whisker at rest are not updated.
-        self.rod.tip(&self.shape)
+        self.ends().last().unwrap_or(self.base())
+    }
+
+    /// The far ends of the links (m, world frame).
+    pub(super) fn ends(&self) -> impl Iterator<Item = Point2> {
+        // The link ends in the shape of a whisker at rest are not updated.
+        self.rod.ends(&self.shape)
     }
 
     /// The force (N, world frame) of the whisker on its base. Between two equilibria it is the force of the previous

@@ -4,8 +4,8 @@ use crate::geometry::{Point2, Pose, Vector2};
 use crate::physics::{Physics, ShaftModel};
 use crate::scene::{Overlap, overlap};
 use crate::solid::Solid;
-use crate::world::{Fault, SNAP_OFF_SPEED, World};
-use crate::world::{Sensors, whole};
+use crate::world::{Fault, Posture, SNAP_OFF_SPEED, World};
+use crate::world::{Sensors, raised, whole};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample};
 
@@ -171,5 +171,12 @@ impl World for QuasiStaticWorld {
 
     fn tip(&self, whisker: usize) -> Point2 {
         self.whiskers[whisker].tip()
+    }
+
+    fn posture(&self) -> Option<Posture> {
+        let shaft = |whisker: &QuasiStaticWhisker| {
+            std::iter::once(whisker.base()).chain(whisker.ends()).map(|end| raised(end, 0.0)).collect()
+        };
+        Some(Posture { body: self.platform.pose, shafts: self.whiskers.iter().map(shaft).collect() })
     }
 }

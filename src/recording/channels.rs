@@ -86,11 +86,11 @@ impl Channels {
         platform.log_with_time(&view.platform(), 0);
         fixed.push(platform);
         Ok(Self {
-            samples: JsonChannel::Samples.open(&context)?,
-            ticks: JsonChannel::Ticks.open(&context)?,
-            state: JsonChannel::State.open(&context)?,
-            guards: JsonChannel::Guards.open(&context)?,
-            transitions: JsonChannel::Transitions.open(&context)?,
+            samples: JsonChannel::Samples.open(&context, &trace.states)?,
+            ticks: JsonChannel::Ticks.open(&context, &trace.states)?,
+            state: JsonChannel::State.open(&context, &trace.states)?,
+            guards: JsonChannel::Guards.open(&context, &trace.states)?,
+            transitions: JsonChannel::Transitions.open(&context, &trace.states)?,
             transform: context.channel_builder("transform").build(),
             pose: context.channel_builder("pose").build(),
             whiskers: context.channel_builder("whiskers").build(),

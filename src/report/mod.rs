@@ -15,6 +15,8 @@ pub(crate) use page::sweep_page;
 pub use page::{RunFigures, bench_page, comparison_page, pareto_page, runs_page};
 pub(crate) use picture::profile_picture;
 pub use picture::{pareto_picture, picture, retrieval_picture};
+#[cfg(any(feature = "render", feature = "viewer"))]
+pub(crate) use style::WHISKERS;
 pub use table::Table;
 pub use tables::{
     bench_table, comparison_tables, difference_tables, estimators_tables, faults_table, latency_table, near_miss_table,

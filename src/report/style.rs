@@ -30,7 +30,7 @@ pub(super) const AXIS: &str = "#c2185b";
 pub(super) const ALARM: &str = "#c2410c";
 
 /// One colour for each whisker (Okabe and Ito's, for colour-blind people too).
-pub(super) const WHISKERS: [&str; 8] =
+pub(crate) const WHISKERS: [&str; 8] =
     ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#009e73", "#8c510a", "#d55e00", "#666666"];
 
 /// Alignment of a text relative to its position.

@@ -43,6 +43,12 @@ pub trait Watcher: Observer {
         let _ = samples;
     }
 
+    /// Receives the trace and the world after every tick, before [`after_tick`](Self::after_tick). The world has what no
+    /// sensor reports.
+    fn in_world(&mut self, trace: &Trace, world: &dyn World) {
+        let _ = (trace, world);
+    }
+
     /// Receives the trace after every tick.
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()>;
 }
@@ -62,6 +68,12 @@ impl<W: Watcher> Watcher for Option<W> {
         }
     }
 
+    fn in_world(&mut self, trace: &Trace, world: &dyn World) {
+        if let Some(watcher) = self {
+            watcher.in_world(trace, world);
+        }
+    }
+
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
         self.iter_mut().try_for_each(|watcher| watcher.after_tick(trace))
     }
@@ -72,6 +84,11 @@ impl<A: Watcher, B: Watcher> Watcher for (A, B) {
     fn before_tick(&mut self, samples: &[Sample]) {
         self.0.before_tick(samples);
         self.1.before_tick(samples);
+    }
+
+    fn in_world(&mut self, trace: &Trace, world: &dyn World) {
+        self.0.in_world(trace, world);
+        self.1.in_world(trace, world);
     }
 
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {

@@ -77,6 +77,7 @@ impl SteppedRun {
         self.monitor.tick_took(before_tick.elapsed());
         self.command = command;
         let ending = self.monitor.observe(&self.control, command, &ticked, world);
+        watcher.in_world(self.monitor.trace(), world);
         if watcher.after_tick(self.monitor.trace()).is_break() {
             return Step::Interrupted;
         }

@@ -3,7 +3,7 @@
 use super::trial::{Trial, TrialResult};
 use super::worlds::ExecuteError;
 use crate::geometry::Point2;
-use crate::world::{Fault, OutOfPlane, World};
+use crate::world::{Fault, OutOfPlane, Posture, World};
 use vibrissa_runtime::signal::{Command, Sample};
 
 /// The samples of a trial, and its result.
@@ -54,5 +54,9 @@ impl World for Recorder {
 
     fn tip(&self, whisker: usize) -> Point2 {
         self.world.tip(whisker)
+    }
+
+    fn posture(&self) -> Option<Posture> {
+        self.world.posture()
     }
 }

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal, StandardUniform};
 
 use super::sensors::{Sensors, drawn, normal, whole};
-use super::{Fault, OutOfPlane, World};
+use super::{Fault, OutOfPlane, Posture, World};
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::mismatch::{Loss, PoseErrors, SensorErrors, TrueArray};
 use vibrissa_runtime::rig::{Rig, Sensing};
@@ -228,6 +228,10 @@ impl World for Disturbed {
 
     fn tip(&self, whisker: usize) -> Point2 {
         self.world.tip(whisker)
+    }
+
+    fn posture(&self) -> Option<Posture> {
+        self.world.posture()
     }
 }
 

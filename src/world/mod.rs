@@ -3,12 +3,15 @@
 mod disturbed;
 mod fault;
 mod out_of_plane;
+mod posture;
 mod sensors;
 mod true_tips;
 
 pub use disturbed::Disturbed;
 pub use fault::Fault;
 pub use out_of_plane::OutOfPlane;
+pub use posture::Posture;
+pub(crate) use posture::raised;
 pub(crate) use sensors::{Sensors, whole};
 pub use true_tips::TrueTips;
 
@@ -43,4 +46,10 @@ pub trait World: Send {
     /// The position of a whisker's tip at the newest sample (m, world frame). The whisker is given by its index in the
     /// rig. No sensor reports this.
     fn tip(&self, whisker: usize) -> Point2;
+
+    /// The positions of platform and whiskers at the newest sample, for videos. `None` in a world without them. No sensor
+    /// reports this.
+    fn posture(&self) -> Option<Posture> {
+        None
+    }
 }

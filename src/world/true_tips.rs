@@ -1,6 +1,6 @@
 //! An ideal sensor of tip positions.
 
-use super::{Fault, OutOfPlane, World};
+use super::{Fault, OutOfPlane, Posture, World};
 use crate::geometry::{ContourSet, Point2};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample, TrueTip};
@@ -63,5 +63,9 @@ impl World for TrueTips {
 
     fn tip(&self, whisker: usize) -> Point2 {
         self.world.tip(whisker)
+    }
+
+    fn posture(&self) -> Option<Posture> {
+        self.world.posture()
     }
 }

@@ -6,6 +6,7 @@
 mod calibration;
 mod curved;
 mod mujoco;
+mod posture;
 mod quasi_static;
 #[path = "../common/snapshots.rs"]
 mod snapshots;

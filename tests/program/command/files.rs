@@ -64,6 +64,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("run @/scene.yaml --ticks @/OUT", "quick.fsm", "OUT", "--ticks"),
     ("run @/scene.yaml --ticks @/OUT", "laws.fsm", "OUT", "--ticks"),
     ("run @/scene.yaml --policy @/quick.fsm --ticks @/OUT", "quick.fsm", "OUT", "--ticks"),
+    #[cfg(feature = "render")]
+    ("run @/scene.yaml --video @/run.gif", "scene.yaml", "run.gif", "--video"),
     ("run @/scene.yaml --out @", "laws.fsm", "scene.svg", "--out"),
     ("run @/scene.yaml --out @", "scene.yaml", "scene.json", "--out"),
     ("run @/scene.yaml --out @", "scene.yaml", "scene.retrievals.svg", "--out"),

@@ -37,5 +37,9 @@ mod stress;
 mod sweep;
 mod test;
 mod tune;
+#[cfg(all(unix, feature = "render"))]
+mod video;
+#[cfg(feature = "viewer")]
+mod view;
 #[cfg(feature = "sim")]
 mod watch;

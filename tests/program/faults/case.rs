@@ -92,6 +92,15 @@ pub(super) const RUN: Case = Case {
     is_long: false,
 };
 
+#[cfg(feature = "render")]
+pub(super) const VIDEO: Case = Case {
+    name: "video",
+    prepare: policy,
+    arguments: |folder| words("run @/scene.yaml --video @/out/run.gif --video-size 64x64", folder),
+    old,
+    is_long: true,
+};
+
 pub(super) const TEST: Case = Case {
     name: "test",
     prepare: policy,

@@ -170,6 +170,12 @@ fn run_leaves_old_reports_or_new_ones() {
     survives(&RUN);
 }
 
+#[cfg(feature = "render")]
+#[test]
+fn run_leaves_the_old_video_or_the_new_one() {
+    survives(&case::VIDEO);
+}
+
 #[test]
 fn test_leaves_old_reports_or_new_ones() {
     survives(&TEST);

@@ -64,6 +64,19 @@ fn a_page_gets_the_run_from_its_beginning_to_its_outcome() {
 }
 
 #[test]
+fn a_chart_names_the_behaviours_of_states_with_their_arguments() {
+    let folder = folder("live-behaviours");
+    let policy = std::path::Path::new(ROOT).join("policies/quick.fsm");
+    let session =
+        Session::start(&folder, &["run", "scene.yaml", "--policy", policy.to_str().unwrap(), "--live", "--paused"]);
+    let (_, hello) = session.page();
+    let states = hello["chart"]["states"].as_array().unwrap();
+    let behaviour = |name: &str| states.iter().find(|state| state["name"] == name).unwrap()["behaviour"].clone();
+    assert_eq!(behaviour("Meeting"), "slide_on(w, target / 2, speed / 2, lost_for)");
+    assert_eq!(behaviour("Retrieval"), Value::Null, "the policy has the content of this state itself");
+}
+
+#[test]
 fn a_stalled_viewer_loses_ticks_and_the_run_none() {
     let folder = folder("live-stalled");
     let words =

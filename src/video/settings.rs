@@ -1,0 +1,60 @@
+//! Settings of a video.
+
+use std::path::Path;
+
+use crate::mujoco::visual::PictureSize;
+
+use super::error::VideoError;
+
+/// The format of a video.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// An animated GIF.
+    Gif,
+    /// H.264 in MP4, encoded by ffmpeg.
+    Mp4,
+}
+
+impl Format {
+    /// The format for the extension of a path.
+    ///
+    /// # Errors
+    /// [`VideoError::Extension`] if it is neither `.gif` nor `.mp4`.
+    pub fn of(path: &Path) -> Result<Self, VideoError> {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("gif") => Ok(Self::Gif),
+            Some("mp4") => Ok(Self::Mp4),
+            _ => Err(VideoError::Extension(path.to_owned())),
+        }
+    }
+}
+
+/// Settings of a video.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Width and height (px). Both are even, as H.264 requires.
+    pub size: [u32; 2],
+    /// Frames per second, from 1 to 50. A GIF cannot show more.
+    pub rate: u32,
+    /// Simulated seconds per second of the video, greater than 0.
+    pub speed: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { size: [640, 480], rate: 30, speed: 10.0 }
+    }
+}
+
+impl Settings {
+    /// Simulated time (s) between two frames.
+    pub(super) fn step(&self) -> f64 {
+        self.speed / f64::from(self.rate)
+    }
+
+    pub(super) fn picture_size(&self) -> PictureSize {
+        let [width, height] = self.size;
+        PictureSize { width, height }
+    }
+}
