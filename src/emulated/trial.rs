@@ -71,7 +71,7 @@ pub fn run(
     plant_trial.scene.physics.fit_step(config.rig.sensing.sample_rate);
     let plant = WorldPlant::new(plant_trial.world()?, &trial.scene.rig, trial.scene.start);
     let control = Control::new(&config.rig, Arc::clone(&trial.program))?;
-    let mut monitor = Monitor::new(&control, &trial.scene.stop, config.rig.sensing.control_rate.recip());
+    let mut monitor = Monitor::new(&control, trial.scene.goal(), config.rig.sensing.control_rate.recip());
     let mut emulation = Emulation::new(config, control, plant, settings)?;
     let (mut ending, mut crash, mut is_interrupted) = (None, None, false);
     // The robot may be stopped for good, so the time is limited beside the ticks. Neutral values take a second.

@@ -5,7 +5,6 @@ use super::position::{before, mouth};
 use super::sampler::Sampler;
 use crate::catalogue::common::WIDTH;
 use crate::catalogue::tunnel_mouth::{LENGTH, THICKNESS};
-use crate::geometry::unit;
 
 /// Lays out a scene.
 pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
@@ -15,7 +14,7 @@ pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
         about: format!("{:.0} mm clear, walls of {:.0} mm", 1e3 * clear, 1e3 * thickness),
         objects: vec![tunnel(&from, &[(length, 0.0)], clear, thickness)],
         start: before(),
-        aim: Aim::Through(from.position + length * unit(from.heading)),
+        aim: Aim::Through,
         path_length: length,
         rig: REFERENCE,
     }

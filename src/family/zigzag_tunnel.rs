@@ -5,7 +5,6 @@ use super::position::{before, mouth};
 use super::sampler::Sampler;
 use crate::catalogue::common::WIDTH;
 use crate::catalogue::zigzag_tunnel::{ANGLE, LENGTH, SECTIONS, SIDE};
-use crate::geometry::{Vector2, unit};
 
 const THICKNESS: f64 = 0.02;
 
@@ -18,12 +17,11 @@ pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
     let runs: Vec<_> =
         (0..sampler.whole(&SECTIONS)).map(|run| (length, if run % 2 == 0 { 0.0 } else { hand * turn })).collect();
     let from = mouth(sampler);
-    let along: Vector2 = runs.iter().map(|&(length, heading)| length * unit(from.heading + heading)).sum();
     Layout {
         about: format!("turns of {:.1}°, {:.0} mm clear", turn.to_degrees(), 1e3 * clear),
         objects: vec![tunnel(&from, &runs, clear, THICKNESS)],
         start: before(),
-        aim: Aim::Through(from.position + along),
+        aim: Aim::Through,
         path_length: runs.iter().map(|run| run.0).sum(),
         rig: REFERENCE,
     }

@@ -78,7 +78,7 @@ pub fn first_difference(
     let [own, other] = [trial, second].map(Trial::control);
     let mut pair = PolicyPair::new([(own?, policies[0]), (other?, policies[1])], scenario);
     let period = trial.scene.rig.sensing.control_rate.recip();
-    let mut monitor = Monitor::new(pair.first(), &trial.scene.stop, period);
+    let mut monitor = Monitor::new(pair.first(), trial.scene.goal(), period);
     let mut command = Command::STOP;
     while let Ok(samples) = world.advance(&command)
         && let Some((next, tick)) = pair.tick(samples)

@@ -6,7 +6,7 @@ use super::setup::RunSetup;
 use crate::geometry::Point2;
 use crate::recording::RunRecording;
 use crate::run::{Run, Watcher, drive};
-use crate::scene::Stop;
+use crate::scene::{Goal, Stop};
 use crate::trial::Trial;
 use crate::world::{Fault, World};
 use vibrissa_runtime::control::{BindError, Control};
@@ -57,9 +57,9 @@ impl<'r> LiveReplay<'r> {
         let (rig, program) = (self.recording.rig(), Arc::new(self.recording.program().clone()));
         let period = rig.sensing.control_rate.recip();
         let time = self.recording.samples().len() as f64 * period;
-        let stop = Stop { time, loop_closed: None, reached: None, succeeded: false, stalled: None };
+        let stop = Stop { time, loop_closed: None, reached: None, passed: None, succeeded: false, stalled: None };
         let control = Control::simulated(rig, program)?;
-        Ok(drive(&mut self, control, &stop, period, watcher))
+        Ok(drive(&mut self, control, Goal { stop: &stop, tunnels: &[] }, period, watcher))
     }
 }
 

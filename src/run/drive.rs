@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::scene::{Outcome, Stop};
+use crate::scene::{Goal, Outcome};
 use crate::world::World;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Observer;
@@ -109,15 +109,15 @@ impl<F: FnMut(&Trace) -> ControlFlow<()>> Watcher for Progress<F> {
     }
 }
 
-/// Runs `control` in `world` until `stop`. `watcher` may stop the run earlier. Then the result is `None`.
+/// Runs `control` in `world` until `goal`. `watcher` may stop the run earlier. Then the result is `None`.
 pub fn drive(
     world: &mut dyn World,
     control: Control,
-    stop: &Stop,
+    goal: Goal<'_>,
     period: f64,
     watcher: &mut impl Watcher,
 ) -> Option<Run> {
-    let mut run = SteppedRun::new(control, stop, period);
+    let mut run = SteppedRun::new(control, goal, period);
     loop {
         match run.step(world, watcher) {
             Step::Running => {}

@@ -3,6 +3,7 @@
 mod contract;
 mod drive;
 mod monitor;
+mod passage_watch;
 mod stall_watch;
 mod stepped_run;
 mod trace;
@@ -10,5 +11,6 @@ mod trace;
 pub use contract::{ContractMargin, ContractRecord};
 pub use drive::{Progress, Run, Watcher, drive};
 pub use monitor::{Ending, Monitor};
+pub use passage_watch::PassageWatch;
 pub use stepped_run::{Step, SteppedRun};
 pub use trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};

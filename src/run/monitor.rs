@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::geometry::{Point2, Vector2};
-use crate::scene::{Outcome, Reached, Stop};
+use crate::scene::{Goal, Outcome, Reached, Stop};
 use crate::world::{Fault, World};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Fallback, LoggedMessage, Machine, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
@@ -12,6 +12,7 @@ use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 use super::contract::ContractRecord;
 use super::drive::Run;
+use super::passage_watch::PassageWatch;
 use super::stall_watch::StallWatch;
 use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
 
@@ -24,6 +25,7 @@ pub struct Monitor {
     trace: Trace,
     tick_times: Vec<Duration>,
     loops: [LoopWatch; MAX_WHISKERS],
+    passages: Vec<PassageWatch>,
     stall: Option<StallWatch>,
     stop: Stop,
     most_ticks: usize,
@@ -53,9 +55,9 @@ impl Ending {
 }
 
 impl Monitor {
-    /// A monitor of `control` until `stop`, with this control period (s). The run begins now.
+    /// A monitor of `control` until `goal`, with this control period (s). The run begins now.
     #[must_use]
-    pub fn new(control: &Control, stop: &Stop, period: f64) -> Self {
+    pub fn new(control: &Control, Goal { stop, tunnels }: Goal<'_>, period: f64) -> Self {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number of ticks of a run")]
         let most_ticks = (stop.time / period).ceil() as usize;
         let program = control.machine().program();
@@ -77,6 +79,7 @@ impl Monitor {
             trace,
             tick_times: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
             loops: Default::default(),
+            passages: if stop.passed.is_some() { tunnels.iter().map(PassageWatch::new).collect() } else { Vec::new() },
             stall: stop.stalled.map(StallWatch::new),
             stop: *stop,
             most_ticks,
@@ -127,6 +130,14 @@ impl Monitor {
         if self.stop.reached.is_some_and(|aim| is_reached(&tick, &aim)) {
             return Some(Ending::COMPLETED);
         }
+        if let Some(share) = self.stop.passed {
+            for passage in &mut self.passages {
+                passage.add(&tick.body);
+            }
+            if self.passages.iter().any(|passage| passage.share() >= share) {
+                return Some(Ending::COMPLETED);
+            }
+        }
         if let Some(reason) = self.stall.as_mut().and_then(|watch| watch.stalls(&tick)) {
             return Some(Ending::failed(Some(reason)));
         }
@@ -134,14 +145,14 @@ impl Monitor {
             return None;
         }
         let time = self.stop.time;
-        Some(match self.stop {
-            Stop { loop_closed: None, reached: None, succeeded: false, .. } => Ending::COMPLETED,
-            Stop { loop_closed: None, reached: None, .. } => {
-                Ending::timeout(format!("the policy did not end in `Success` within {time} s"))
-            }
-            Stop { loop_closed: None, .. } => Ending::timeout(format!("the position was not reached within {time} s")),
-            Stop { .. } => Ending::timeout(format!("the loop did not close within {time} s")),
-        })
+        let missing = match self.stop {
+            Stop { loop_closed: Some(_), .. } => "the loop did not close",
+            Stop { reached: Some(_), .. } => "the position was not reached",
+            Stop { passed: Some(_), .. } => "the tunnel was not passed",
+            Stop { succeeded: true, .. } => "the policy did not end in `Success`",
+            Stop { .. } => return Some(Ending::COMPLETED),
+        };
+        Some(Ending::timeout(format!("{missing} within {time} s")))
     }
 
     /// Replaces the command of the newest tick.

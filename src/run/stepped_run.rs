@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::scene::Stop;
+use crate::scene::Goal;
 use crate::world::World;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Program;
@@ -58,10 +58,10 @@ pub enum Step {
 }
 
 impl SteppedRun {
-    /// A run of `control` until `stop`, with this control period (s). The first command is to stand still.
+    /// A run of `control` until `goal`, with this control period (s). The first command is to stand still.
     #[must_use]
-    pub fn new(control: Control, stop: &Stop, period: f64) -> Self {
-        Self { monitor: Monitor::new(&control, stop, period), control, command: Command::STOP }
+    pub fn new(control: Control, goal: Goal<'_>, period: f64) -> Self {
+        Self { monitor: Monitor::new(&control, goal, period), control, command: Command::STOP }
     }
 
     /// Simulates one control period under the current command, and executes one tick of the control loop. Its command

@@ -25,6 +25,11 @@ pub(super) struct Objects {
 }
 
 impl Objects {
+    /// True if one of the objects is a tunnel.
+    pub(super) fn has_tunnel(&self) -> bool {
+        !self.axes.is_empty()
+    }
+
     /// Creates the solids of `objects`. Plain objects that touch become one solid with the span of the first.
     pub(super) fn of(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Self> {
         let mut all = Self { solids: Vec::new(), reference: Vec::new(), axes: Vec::new() };

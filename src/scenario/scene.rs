@@ -83,6 +83,9 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
     if let (Some((rig, _)), Some(stop)) = (&rig, &stop) {
         stop::check(reader, stop, rig.sensing.control_rate);
     }
+    if let (Some(objects), Some(stop)) = (&objects, &stop) {
+        stop::check_passage(reader, stop, objects.has_tunnel());
+    }
     let ((rig, physics), objects, start) = (rig?, objects?, start?);
     objects.check_clearance(reader, &rig, &start);
     Some(Scene {

@@ -6,23 +6,33 @@ use super::key::Key;
 use super::node::{Entry, Placed};
 use super::reader::Reader;
 use super::start::POSITION;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::{LoopClosed, Reached, Stalled, Stop};
 use vibrissa_runtime::units::{Dimension, format_si};
 
 const TIME: Key = Key::new("time", Dimension::TIME, (1e-3, 86_400.0), "120 s");
 const WITHIN: Key = Key::new("within", Dimension::LENGTH, (1e-6, 1.0), "5 mm");
 const AFTER: Key = Key::new("after", Dimension::TIME, (0.0, 86_400.0), "5 s");
+const PASSED: Key = Key::new("passed", Dimension::NUMBER, (0.01, 1.0), "95 %");
 const STALLED_AFTER: Key = Key::new("after", Dimension::TIME, (0.1, 86_400.0), "60 s");
 const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
 
 /// The largest number of control ticks of a run, because the trace contains every tick: ninety hours at 30 Hz.
 const MAX_TICKS: f64 = 1e7;
 
-/// Reads `stop`, with the span of its time.
-pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop>> {
+/// A stop condition, with the spans of its time and of its passage.
+pub(super) struct PlacedStop {
+    pub(super) value: Stop,
+    time: Span,
+    passed: Option<Span>,
+}
+
+/// Reads `stop`.
+pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<PlacedStop> {
     let mut fields = Fields::of(reader, &entry.value, "a stop", entry.key.span)?;
     let time = fields.number(reader, &TIME);
+    let mut share = f64::NAN;
+    let passed = fields.set(reader, &PASSED, &mut share);
     let entries = ["loop_closed", "reached", "succeeded", "stalled"].map(|name| fields.entry(name));
     let [loop_closed, reached, succeeded, stalled] = entries;
     fields.finish(reader);
@@ -33,9 +43,10 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Placed<Stop
     let stalled = stalled.and_then(|entry| read_stalled(reader, entry));
     let time = time?;
     // A run without a goal need not make progress.
-    let has_aim = loop_closed.is_some() || reached.is_some() || succeeded;
+    let has_aim = loop_closed.is_some() || reached.is_some() || passed.is_some() || succeeded;
     let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
-    Some(Placed { value: Stop { time: time.value, loop_closed, reached, succeeded, stalled }, span: time.span })
+    let stop = Stop { time: time.value, loop_closed, reached, passed: passed.map(|_| share), succeeded, stalled };
+    Some(PlacedStop { value: stop, time: time.span, passed })
 }
 
 fn read_loop_closed(reader: &mut Reader<'_>, entry: &Entry, end: Option<&Placed<f64>>) -> Option<LoopClosed> {
@@ -80,8 +91,17 @@ fn is_in_time(reader: &mut Reader<'_>, never: &str, after: &Placed<f64>, end: Op
     None
 }
 
+/// Reports a passage through no tunnel.
+pub(super) fn check_passage(reader: &mut Reader<'_>, stop: &PlacedStop, has_tunnel: bool) {
+    if let Some(place) = stop.passed.filter(|_| !has_tunnel) {
+        let message = "there is no tunnel that could be passed";
+        let fault = Diagnostic::error(fault::SHAPE, message, place, "a share of a tunnel's axis");
+        reader.report(fault.hint("add an object `tunnel`, or end the run by `loop_closed` or `reached`"));
+    }
+}
+
 /// Checks that a run at `control_rate` (Hz) does not exceed the largest number of ticks.
-pub(super) fn check(reader: &mut Reader<'_>, stop: &Placed<Stop>, control_rate: f64) {
+pub(super) fn check(reader: &mut Reader<'_>, stop: &PlacedStop, control_rate: f64) {
     let ticks = stop.value.time * control_rate;
     if ticks <= MAX_TICKS {
         return;
@@ -91,6 +111,6 @@ pub(super) fn check(reader: &mut Reader<'_>, stop: &Placed<Stop>, control_rate: 
     let label = format!("{} ticks at the control rate of {rate}", number(ticks));
     let message = format!("a run has at most {} ticks", number(MAX_TICKS));
     let longest = format_si(MAX_TICKS / control_rate, Dimension::TIME);
-    let fault = Diagnostic::error(fault::TIMING, message, stop.span, label);
+    let fault = Diagnostic::error(fault::TIMING, message, stop.time, label);
     reader.report(fault.hint(format!("for example `time: {longest}`, or a slower `control_rate`")));
 }

@@ -14,5 +14,5 @@ pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub(crate) use gap::gap;
 pub use jitter::Jitter;
 pub use scene::{FileReference, Scene, Truth};
-pub use stop::{LoopClosed, Reached, Stalled, Stop};
+pub use stop::{Goal, LoopClosed, Reached, Stalled, Stop};
 pub use world_kind::{WorldKind, WorldSetup};

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::clearance::overlap;
-use super::{Expectation, Stop, WorldKind};
+use super::{Expectation, Goal, Stop, WorldKind};
 use crate::diagnostic::Span;
 use crate::geometry::{Contour, ContourSet, Pose, TunnelAxis};
 use crate::mismatch::{Mismatch, TrueArray};
@@ -60,6 +60,12 @@ impl Scene {
             }
         }
         rig
+    }
+
+    /// The stop condition with the tunnels of the scene.
+    #[must_use]
+    pub fn goal(&self) -> Goal<'_> {
+        Goal { stop: &self.stop, tunnels: &self.truth.axes }
     }
 
     /// True if the seed of a run changes it: measurements have noise, or the true array is drawn.

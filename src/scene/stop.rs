@@ -1,12 +1,12 @@
 //! The stop condition of a run.
 
-use crate::geometry::Point2;
+use crate::geometry::{Point2, TunnelAxis};
 
 /// The stop condition of a run.
 ///
-/// With [`loop_closed`](Self::loop_closed) or [`reached`](Self::reached), a run completes as soon as one of them holds. A
-/// policy can complete it by a success, too. With either or with [`succeeded`](Self::succeeded), a run times out at
-/// [`time`](Self::time). Otherwise it completes at that time.
+/// With [`loop_closed`](Self::loop_closed), [`reached`](Self::reached) or [`passed`](Self::passed), a run completes as soon as
+/// one of them holds. A policy can complete it by a success, too. With one of them or with [`succeeded`](Self::succeeded), a
+/// run times out at [`time`](Self::time). Otherwise it completes at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     /// The time limit (simulated s).
@@ -15,10 +15,22 @@ pub struct Stop {
     pub loop_closed: Option<LoopClosed>,
     /// The condition of a reached position, if there is one.
     pub reached: Option<Reached>,
+    /// The share of a tunnel's axis (0 to 1) along which the platform's centre of mass has to remain between the walls, if
+    /// there is such a condition.
+    pub passed: Option<f64>,
     /// True if the policy has to succeed.
     pub succeeded: bool,
     /// The condition for ending a run without progress; `None` to disable it.
     pub stalled: Option<Stalled>,
+}
+
+/// The stop condition of a run, with the tunnels to which it refers.
+#[derive(Debug, Clone, Copy)]
+pub struct Goal<'s> {
+    /// The condition.
+    pub stop: &'s Stop,
+    /// The axes of the tunnels.
+    pub tunnels: &'s [TunnelAxis],
 }
 
 /// The newest tip of a whisker is near its first valid tip, after the platform has moved around that point.

@@ -1,7 +1,7 @@
 //! The passage of a run through a tunnel.
 
 use crate::geometry::{Contour, ContourSet, Point2, TunnelAxis, rotate};
-use crate::run::Trace;
+use crate::run::{PassageWatch, Trace};
 use vibrissa_runtime::percept::TipCurve;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
@@ -17,8 +17,7 @@ const ON_SIDE: f64 = 1e-6;
 /// The passage of a run through a tunnel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passage {
-    /// The longest interval of the axis along which the platform's centre of mass remained between the walls, as a
-    /// share of the axis's length (0 to 1).
+    /// The [share of the axis](PassageWatch::share) that the platform passed (0 to 1).
     pub share: f64,
     /// The [traced](super::traced) share of the left inner side (0 to 1) between the first and the last contact with
     /// either inner side. 0 without contact.
@@ -72,26 +71,11 @@ fn share_of(truths: impl Iterator<Item = bool>) -> f64 {
 }
 
 fn passed_share(trace: &Trace, axis: &TunnelAxis) -> f64 {
-    let line = axis.line();
-    // Smallest and largest arc length of the current interval, and the newest.
-    let mut stretch: Option<(f64, f64, f64)> = None;
-    let mut longest = 0.0_f64;
+    let mut passage = PassageWatch::new(axis);
     for tick in &trace.ticks {
-        let along = axis.arc_length_between(tick.body.position).filter(|_| tick.body.is_finite());
-        stretch = along.map(|along| match stretch {
-            None => (along, along, along),
-            Some((least, greatest, newest)) => {
-                let mut step = along - newest;
-                if line.is_closed() {
-                    step -= line.length() * (step / line.length()).round();
-                }
-                let along = newest + step;
-                (least.min(along), greatest.max(along), along)
-            }
-        });
-        longest = stretch.map_or(longest, |(least, greatest, _)| longest.max(greatest - least));
+        passage.add(&tick.body);
     }
-    (longest / line.length()).min(1.0)
+    passage.share()
 }
 
 /// Points of an inner side, with the arc lengths of their projections on the axis's line.

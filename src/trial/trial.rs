@@ -167,7 +167,7 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the rig does not have what the policy needs.
     pub fn begin(&self) -> Result<SteppedRun, ExecuteError> {
-        Ok(SteppedRun::new(self.control()?, &self.scene.stop, self.period()))
+        Ok(SteppedRun::new(self.control()?, self.scene.goal(), self.period()))
     }
 
     /// The control period (s).
@@ -176,7 +176,7 @@ impl Trial {
     }
 
     fn drive(&self, control: Control, world: &mut dyn World, watcher: &mut impl Watcher) -> Result<Run, ExecuteError> {
-        drive(world, control, &self.scene.stop, self.period(), watcher).ok_or(ExecuteError::Interrupted)
+        drive(world, control, self.scene.goal(), self.period(), watcher).ok_or(ExecuteError::Interrupted)
     }
 
     /// Scores a run of this trial.

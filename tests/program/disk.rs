@@ -123,6 +123,30 @@ fn a_run_is_completed_where_the_platform_is_to_get_to() {
 }
 
 #[test]
+fn a_run_is_completed_when_the_tunnel_is_passed_from_either_end() {
+    let tunnel = "objects: [{tunnel: {frame: {position: [0 m, 0.2 m], heading: 90 deg}, centre_line: {mitred: [{length: 40 cm, heading: 0 deg}]}, \
+        width: 24 cm, thickness: 2 cm}}]";
+    let driving = |start: &str, time: &str| {
+        let scenario = format!(
+            "name: passage\n{tunnel}\nstart: {{position: {start}}}\nstop: {{time: {time}, passed: 90 %}}\n"
+        );
+        let policy = "machine on initial On state On { steer body along direction(body.yaw) at 100 mm/s turning 0 deg/s }";
+        run(&scene(&scenario), compile(&Source::new("on.fsm", policy)).unwrap(), 0).0
+    };
+    for start in ["[0 m, 0 m], heading: 90 deg", "[0 m, 0.8 m], heading: -90 deg"] {
+        let there = driving(start, "20 s");
+        assert_eq!(there.outcome, Outcome::Completed, "{start}");
+        // The share of the axis from 0.2 m to 0.6 m, to the next tick.
+        let y = there.trace.ticks.last().unwrap().body.position.y;
+        let passed = if start.contains("-90") { 0.6 - y } else { y - 0.2 };
+        assert!((0.36..0.37).contains(&passed), "{start}: {passed} m");
+    }
+    let beside = driving("[0.5 m, 0 m], heading: 90 deg", "8 s");
+    assert_eq!(beside.outcome, Outcome::Timeout);
+    assert_eq!(beside.reason.as_deref(), Some("the tunnel was not passed within 8 s"));
+}
+
+#[test]
 fn a_run_whose_policy_has_to_succeed_is_complete_when_it_does() {
     let text = read("scenarios/disk.yaml").text.replace("loop_closed: {within: 5 mm, after: 5 s}", "succeeded: true");
     let scene = scene(&text.replace("time: 120 s", "time: 2 s"));
