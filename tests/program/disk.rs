@@ -127,10 +127,10 @@ fn a_run_is_completed_when_the_tunnel_is_passed_from_either_end() {
     let tunnel = "objects: [{tunnel: {frame: {position: [0 m, 0.2 m], heading: 90 deg}, centre_line: {mitred: [{length: 40 cm, heading: 0 deg}]}, \
         width: 24 cm, thickness: 2 cm}}]";
     let driving = |start: &str, time: &str| {
-        let scenario = format!(
-            "name: passage\n{tunnel}\nstart: {{position: {start}}}\nstop: {{time: {time}, passed: 90 %}}\n"
-        );
-        let policy = "machine on initial On state On { steer body along direction(body.yaw) at 100 mm/s turning 0 deg/s }";
+        let scenario =
+            format!("name: passage\n{tunnel}\nstart: {{position: {start}}}\nstop: {{time: {time}, passed: 90 %}}\n");
+        let policy =
+            "machine on initial On state On { steer body along direction(body.yaw) at 100 mm/s turning 0 deg/s }";
         run(&scene(&scenario), compile(&Source::new("on.fsm", policy)).unwrap(), 0).0
     };
     for start in ["[0 m, 0 m], heading: 90 deg", "[0 m, 0.8 m], heading: -90 deg"] {
