@@ -128,19 +128,18 @@ impl RunOutputs {
         let page = ();
         let mut watchers = ((recorder, film), (window, page));
         let finished = run_with_bar(trial, &mut watchers)?;
-        let ((recorder, film), (window, page)) = watchers;
         #[cfg(feature = "live")]
-        if let Some(page) = page {
+        if let Some(page) = watchers.1.1 {
             page.finish(&finished.run);
         }
         #[cfg(feature = "viewer")]
-        window.map_or(Ok(()), RunWindow::close)?;
+        watchers.1.0.map_or(Ok(()), RunWindow::close)?;
         #[cfg(feature = "recording")]
-        if let (Some(file), Some(recorder)) = (record, recorder) {
+        if let (Some(file), Some(recorder)) = (record, watchers.0.0) {
             file.write(recorder.finish(&finished.run)?)?;
         }
         #[cfg(feature = "render")]
-        if let (Some((file, studio)), Some(film)) = (video, film) {
+        if let (Some((file, studio)), Some(film)) = (video, watchers.0.1) {
             let bar = frames_bar();
             let progress = |done: usize, all: usize| {
                 bar.set_length(all as u64);

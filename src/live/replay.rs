@@ -57,7 +57,7 @@ impl<'r> LiveReplay<'r> {
         let (rig, program) = (self.recording.rig(), Arc::new(self.recording.program().clone()));
         let period = rig.sensing.control_rate.recip();
         let time = self.recording.samples().len() as f64 * period;
-        let stop = Stop { time, loop_closed: None, reached: None, passed: None, succeeded: false, stalled: None };
+        let stop = Stop::at(time);
         let control = Control::simulated(rig, program)?;
         Ok(drive(&mut self, control, Goal { stop: &stop, tunnels: &[] }, period, watcher))
     }

@@ -40,14 +40,7 @@ fn the_disk_of_the_thesis_reads_as_its_figures() {
     assert!(outline.signed_distance(Point2::new(0.1, 0.4)).abs() < 1e-15);
     assert_eq!(scene.start, Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 });
     let loop_closed = Some(LoopClosed { within: 0.005, after: 5.0 });
-    let stop = Stop {
-        time: 120.0,
-        loop_closed,
-        reached: None,
-        passed: None,
-        succeeded: false,
-        stalled: Some(Stalled::default()),
-    };
+    let stop = Stop { loop_closed, stalled: Some(Stalled::default()), ..Stop::at(120.0) };
     assert_eq!(scene.stop, stop);
     assert_eq!(
         scene.expect,

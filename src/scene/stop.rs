@@ -24,6 +24,14 @@ pub struct Stop {
     pub stalled: Option<Stalled>,
 }
 
+impl Stop {
+    /// The end at a time (simulated s), without further conditions.
+    #[must_use]
+    pub fn at(time: f64) -> Self {
+        Self { time, loop_closed: None, reached: None, passed: None, succeeded: false, stalled: None }
+    }
+}
+
 /// The stop condition of a run, with the tunnels to which it refers.
 #[derive(Debug, Clone, Copy)]
 pub struct Goal<'s> {

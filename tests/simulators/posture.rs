@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Point3;
 use vibrissa::geometry::{Point2, Pose, Vector2, circle, unit};
-use vibrissa::mujoco::MujocoWorld;
-use vibrissa::physics::{Physics, ShaftModel};
+use vibrissa::physics::Physics;
 use vibrissa::quasi_static::QuasiStaticWorld;
 use vibrissa::solid::Solid;
 use vibrissa::world::{Posture, World};
@@ -14,21 +13,37 @@ use vibrissa_runtime::signal::Command;
 
 const START: Pose = Pose { position: Point2::new(0.0, 0.072), heading: FRAC_PI_2 };
 
-/// Worlds in which the right whisker comes to a disk, and the left one touches nothing.
+/// A disk to which the right whisker comes. The left one touches nothing.
+fn disk() -> [Solid; 1] {
+    [Solid::inside(circle(Point2::new(0.4, 0.4), 0.3).unwrap()).unwrap()]
+}
+
 fn worlds() -> Vec<(&'static str, Box<dyn World>)> {
-    let rig = Rig::default();
-    let disk = [Solid::inside(circle(Point2::new(0.4, 0.4), 0.3).unwrap()).unwrap()];
-    let mujoco = |shafts, pruned: bool| {
+    let world = QuasiStaticWorld::new(&Rig::default(), &Physics::default(), &disk(), START, 0).unwrap();
+    let quasi_static: (_, Box<dyn World>) = ("quasi-static", Box::new(world));
+    mujoco_worlds().into_iter().chain([quasi_static]).collect()
+}
+
+#[cfg(not(feature = "sim"))]
+fn mujoco_worlds() -> [(&'static str, Box<dyn World>); 0] {
+    []
+}
+
+#[cfg(feature = "sim")]
+fn mujoco_worlds() -> [(&'static str, Box<dyn World>); 4] {
+    use vibrissa::mujoco::MujocoWorld;
+    use vibrissa::physics::ShaftModel;
+
+    let world = |shafts, pruned: bool| -> Box<dyn World> {
         let physics = Physics { shafts, ..Physics::default() };
         let build = if pruned { MujocoWorld::pruned } else { MujocoWorld::new };
-        Box::new(build(&rig, &physics, &disk, START, 0).unwrap())
+        Box::new(build(&Rig::default(), &physics, &disk(), START, 0).unwrap())
     };
-    vec![
-        ("chain", mujoco(ShaftModel::Chain, false)),
-        ("pruned chain", mujoco(ShaftModel::Chain, true)),
-        ("cable", mujoco(ShaftModel::Cable, false)),
-        ("spatial chain", mujoco(ShaftModel::SpatialChain, false)),
-        ("quasi-static", Box::new(QuasiStaticWorld::new(&rig, &Physics::default(), &disk, START, 0).unwrap())),
+    [
+        ("chain", world(ShaftModel::Chain, false)),
+        ("pruned chain", world(ShaftModel::Chain, true)),
+        ("cable", world(ShaftModel::Cable, false)),
+        ("spatial chain", world(ShaftModel::SpatialChain, false)),
     ]
 }
 

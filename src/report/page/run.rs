@@ -102,6 +102,7 @@ pub(super) fn overview(runs: &[PageRun<'_>]) -> Markup {
     let failed: Vec<_> = runs.iter().enumerate().filter(|(_, run)| !run.passed).collect();
     let longest = runs.iter().map(|run| run.figures.duration).fold(0.0, f64::max);
     html! {
+        p { a href=(address(0)) { "To the pictures of the runs" } }
         @if !failed.is_empty() {
             section {
                 h2 { "Not passed" }
@@ -114,12 +115,14 @@ pub(super) fn overview(runs: &[PageRun<'_>]) -> Markup {
         }
         section {
             h2 { "States over time" }
-            p { "Each band is a run, and each colour is a state. A ring marks the largest error." }
+            p { "Each band is a run, and each colour is a state. The picture of a run names them. A ring marks the largest error." }
             div.bands {
                 @for (index, run) in runs.iter().enumerate() {
                     div.label { (link(index, run)) }
                     div.lane { (band(run, &format!("band{index}-"), longest)) }
                 }
+                div.label {}
+                div.axis { @for quarter in 0..=4_u8 { span { (format!("{:.0} s", 0.25 * f64::from(quarter) * longest)) } } }
             }
         }
     }

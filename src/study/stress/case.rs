@@ -76,7 +76,7 @@ pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, Cas
         solids: vec![Solid::inside(object.clone())?],
         truth: object.into(),
         start: Pose { position: Point2::origin(), heading: FRAC_PI_2 },
-        stop: Stop { time, loop_closed: None, reached: None, passed: None, succeeded: false, stalled: None },
+        stop: Stop::at(time),
         expect: Vec::new(),
         policy: None,
         world: None,

@@ -10,7 +10,7 @@ use vibrissa::policy::{compile, gather};
 use vibrissa::quasi_static::QuasiStaticWorld;
 use vibrissa::run::{Progress, Run, Trace, drive};
 use vibrissa::scenario;
-use vibrissa::scene::{Scene, Stop};
+use vibrissa::scene::{Goal, Scene, Stop};
 use vibrissa::world::{Fault, World};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Cause, Program};
@@ -32,10 +32,16 @@ fn program(policy: &str) -> Program {
 
 /// A run of at most so long (s) in `world`; none if the rig cannot be perceived.
 fn run(scene: &Scene, program: Program, world: &mut dyn World, time: f64) -> Option<Run> {
-    let stop = Stop { time, loop_closed: None, reached: None, succeeded: false, ..scene.stop };
+    let stop = Stop { stalled: scene.stop.stalled, ..Stop::at(time) };
     let control = Control::new(&scene.rig, Arc::new(program)).ok()?;
     let period = 1.0 / scene.rig.sensing.control_rate;
-    drive(world, control, &stop, period, &mut Progress(|_: &Trace| ControlFlow::Continue(())))
+    drive(
+        world,
+        control,
+        Goal { stop: &stop, tunnels: &[] },
+        period,
+        &mut Progress(|_: &Trace| ControlFlow::Continue(())),
+    )
 }
 
 /// The state that gave a command that is not finite, if one did.
