@@ -125,7 +125,7 @@ fn a_run_is_completed_where_the_platform_is_to_get_to() {
 #[test]
 fn a_run_is_completed_when_the_tunnel_is_passed_from_either_end() {
     let tunnel = "objects: [{tunnel: {frame: {position: [0 m, 0.2 m], heading: 90 deg}, centre_line: {mitred: [{length: 40 cm, heading: 0 deg}]}, \
-        width: 24 cm, thickness: 2 cm}}]";
+        width: 60 cm, thickness: 2 cm}}]";
     let driving = |start: &str, time: &str| {
         let scenario =
             format!("name: passage\n{tunnel}\nstart: {{position: {start}}}\nstop: {{time: {time}, passed: 90 %}}\n");

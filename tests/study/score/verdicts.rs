@@ -77,7 +77,8 @@ fn wrong_passage(scene: &Scene, axis: &TunnelAxis, trace: &Trace, lines: &[(Poin
         return Some("the run does not end between the walls".to_owned());
     };
     let (from, to) = (along(first), along(last));
-    if from > 0.012 || to < axis.line().length() - 0.06 {
+    // In either direction.
+    if (to - from).abs() < axis.line().length() - 0.062 {
         return Some(format!("between the walls from {from} m to {to} m of {} m only", axis.line().length()));
     }
     let tips = trace.ticks.iter().flat_map(|tick| tick.tips.into_iter().flatten());
