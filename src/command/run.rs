@@ -97,10 +97,11 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
     let mut ticks = TickFile::new(arguments, &mut files)?;
     let mut outputs = RunOutputs::new(arguments, &mut files)?;
-    let mut exit = Exit::Done;
+    let (mut exit, mut written) = (Exit::Done, Ok(()));
     for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
-        let finished = outputs.run(prepared)?;
+        let (finished, of_run) = outputs.run(prepared)?;
+        written = written.and(of_run);
         reports.add(index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
@@ -110,7 +111,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     ticks.write()?;
     reports.show(arguments.format)?;
     outputs.serve_on();
-    Ok(exit)
+    written.map(|()| exit)
 }
 
 /// A trial with the policy that it was made from.

@@ -24,6 +24,8 @@ use crate::live::{Live, LiveWatcher, RunSetup};
 use crate::recording::Recorder;
 #[cfg(feature = "render")]
 use crate::scene::Scene;
+#[cfg(feature = "render")]
+use crate::trial::Trial;
 use crate::trial::TrialResult;
 #[cfg(feature = "viewer")]
 use crate::video::RunWindow;
@@ -53,6 +55,7 @@ pub(super) struct VideoOptions {
     /// Show the run in a window, in real time. The space bar pauses it. With one scenario
     #[cfg(feature = "viewer")]
     #[arg(long, conflicts_with_all = ["watch", "transitions"])]
+    #[cfg_attr(feature = "live", arg(conflicts_with = "live"))]
     view: bool,
 }
 
@@ -102,12 +105,13 @@ impl RunOutputs {
         })
     }
 
-    /// Runs a trial with its outputs, and writes them.
+    /// Runs a trial with its outputs, and writes them. A failure of an output does not stop the other ones, and the result of the run
+    /// is returned beside it.
     #[cfg_attr(
         not(any(feature = "recording", feature = "render", feature = "viewer", feature = "live")),
         expect(clippy::unused_self, reason = "this build has none of these outputs")
     )]
-    pub(super) fn run(&mut self, prepared: &Prepared) -> Result<TrialResult, Failure> {
+    pub(super) fn run(&mut self, prepared: &Prepared) -> Result<(TrialResult, Result<(), Failure>), Failure> {
         let trial = &prepared.trial;
         // Missing programs and drivers are reported before the run.
         #[cfg(feature = "render")]
@@ -132,24 +136,14 @@ impl RunOutputs {
         if let Some(page) = watchers.1.1 {
             page.finish(&finished.run);
         }
-        #[cfg(feature = "viewer")]
-        watchers.1.0.map_or(Ok(()), RunWindow::close)?;
+        let written = Ok(());
         #[cfg(feature = "recording")]
-        if let (Some(file), Some(recorder)) = (record, watchers.0.0) {
-            file.write(recorder.finish(&finished.run)?)?;
-        }
+        let written = written.and(write_recording(record.zip(watchers.0.0), &finished));
         #[cfg(feature = "render")]
-        if let (Some((file, studio)), Some(film)) = (video, watchers.0.1) {
-            let bar = frames_bar();
-            let progress = |done: usize, all: usize| {
-                bar.set_length(all as u64);
-                bar.set_position(done as u64);
-            };
-            let content = studio.develop(&trial.scene, &film, &finished.run.trace, progress);
-            bar.finish_and_clear();
-            file.write(content?)?;
-        }
-        Ok(finished)
+        let written = written.and(write_video(video.zip(watchers.0.1), trial, &finished));
+        #[cfg(feature = "viewer")]
+        let written = written.and(watchers.1.0.map_or(Ok(()), |window| Ok(window.close()?)));
+        Ok((finished, written))
     }
 
     /// Serves the page, if there is one, until the user ends the program.
@@ -167,6 +161,25 @@ impl RunOutputs {
 fn recorder(prepared: &Prepared, file: Output) -> Result<(Output, Recorder), Failure> {
     let Prepared { trial, text, artifact } = prepared;
     Ok((file, Recorder::new(trial, artifact, text.clone())?))
+}
+
+#[cfg(feature = "recording")]
+fn write_recording(recording: Option<(Output, Recorder)>, finished: &TrialResult) -> Result<(), Failure> {
+    let Some((file, recorder)) = recording else { return Ok(()) };
+    Ok(file.write(recorder.finish(&finished.run)?)?)
+}
+
+#[cfg(feature = "render")]
+fn write_video(video: Option<((Output, Studio), Film)>, trial: &Trial, finished: &TrialResult) -> Result<(), Failure> {
+    let Some(((file, studio), film)) = video else { return Ok(()) };
+    let bar = frames_bar();
+    let progress = |done: usize, all: usize| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    };
+    let content = studio.develop(&trial.scene, &film, &finished.run.trace, progress);
+    bar.finish_and_clear();
+    Ok(file.write(content?)?)
 }
 
 /// The watcher that shows a trial on a page.

@@ -195,7 +195,8 @@ pass_on! {
             categories: c_int,
             scene: *mut mjvScene
         );
-    }    #[cfg(feature = "viewer")] {
+    }
+    #[cfg(feature = "viewer")] {
         fn mj_actuatorInputName(model: *const mjModel, actuator: c_int, input: c_int) -> *const c_char;
         fn mj_compile(spec: *mut mjSpec, vfs: *const mjVFS) -> *mut mjModel;
         fn mj_copyData(to: *mut mjData, model: *const mjModel, from: *const mjData) -> *mut mjData;

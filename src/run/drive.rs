@@ -44,7 +44,7 @@ pub trait Watcher: Observer {
     }
 
     /// Receives the trace and the world after every tick, before [`after_tick`](Self::after_tick). The world has what no
-    /// sensor reports.
+    /// sensor reports. Emulated runs and replays do not call it.
     fn in_world(&mut self, trace: &Trace, world: &dyn World) {
         let _ = (trace, world);
     }

@@ -13,7 +13,7 @@ use vibrissa_runtime::units::{Dimension, format_si};
 const TIME: Key = Key::new("time", Dimension::TIME, (1e-3, 86_400.0), "120 s");
 const WITHIN: Key = Key::new("within", Dimension::LENGTH, (1e-6, 1.0), "5 mm");
 const AFTER: Key = Key::new("after", Dimension::TIME, (0.0, 86_400.0), "5 s");
-const PASSED: Key = Key::new("passed", Dimension::NUMBER, (0.01, 1.0), "95 %");
+const PASSED: Key = Key::new("passed", Dimension::NUMBER, (0.01, 0.99), "95 %");
 const STALLED_AFTER: Key = Key::new("after", Dimension::TIME, (0.1, 86_400.0), "60 s");
 const PLACE: Key = Key { name: "place", example: "[0.5 m, 1.6 m]", ..POSITION };
 

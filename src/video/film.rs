@@ -10,6 +10,8 @@ use crate::world::{Posture, World};
 
 use super::settings::Settings;
 
+/// The largest number of frames: 33 minutes at 50 frames per second.
+pub(super) const MOST_FRAMES: usize = 100_000;
 /// A share of a frame that rounding may move a time by.
 const ROUNDING: f64 = 1e-6;
 
@@ -64,7 +66,8 @@ impl Watcher for Film {
         let start = trace.ticks.first().map_or(0.0, |first| first.time);
         let due = ((newest.time - start) / self.step + ROUNDING).floor();
         let mut is_shown = false;
-        while self.frames.len() as f64 <= due {
+        // A video with more frames is refused.
+        while self.frames.len() as f64 <= due && self.frames.len() <= MOST_FRAMES {
             self.frames.push(self.shots.len());
             is_shown = true;
         }

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use crate::mujoco::visual::PictureSize;
-
 use super::error::VideoError;
 
 /// The format of a video.
@@ -51,10 +49,5 @@ impl Settings {
     /// Simulated time (s) between two frames.
     pub(super) fn step(&self) -> f64 {
         self.speed / f64::from(self.rate)
-    }
-
-    pub(super) fn picture_size(&self) -> PictureSize {
-        let [width, height] = self.size;
-        PictureSize { width, height }
     }
 }

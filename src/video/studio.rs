@@ -1,17 +1,14 @@
 //! Draws a film, and encodes it.
 
-use crate::mujoco::visual::{Camera, OffscreenRenderer};
+use crate::mujoco::visual::{Camera, OffscreenRenderer, top};
 use crate::run::Trace;
 use crate::scene::Scene;
 
 use super::encoder::Encoder;
 use super::error::VideoError;
-use super::film::Film;
+use super::film::{Film, MOST_FRAMES};
 use super::settings::{Format, Settings};
 use super::sketch::{Sketch, area};
-
-/// The largest number of frames: 33 minutes at 50 frames per second.
-const MOST_FRAMES: usize = 100_000;
 
 /// Makes the video of one run.
 ///
@@ -27,16 +24,16 @@ impl Studio {
     /// # Errors
     /// [`VideoError`] if OpenGL or ffmpeg is missing.
     pub fn new(scene: &Scene, format: Format, settings: Settings) -> Result<Self, VideoError> {
-        let camera = Camera::around(&area(scene, [&scene.start]), aspect(&settings));
+        let camera = Camera::around(&area(scene, [&scene.start]), top(&scene.physics), aspect(&settings));
         // OpenGL belongs to a thread, and the run may use it for other things, so that it is opened again later.
-        OffscreenRenderer::new(scene, &camera, settings.picture_size())?;
+        OffscreenRenderer::new(scene, &camera, settings.size)?;
         Ok(Self { settings, encoder: Encoder::new(format, &settings)? })
     }
 
     /// The camera of a film: the nearest one that shows the whole run.
     #[must_use]
     pub fn camera(&self, scene: &Scene, film: &Film) -> Camera {
-        Camera::around(&area(scene, film.bodies()), aspect(&self.settings))
+        Camera::around(&area(scene, film.bodies()), top(&scene.physics), aspect(&self.settings))
     }
 
     /// The content of the video's file. `progress` receives the number of finished frames and of all frames.
@@ -56,7 +53,7 @@ impl Studio {
             return Err(VideoError::TooLong { frames: count, most: MOST_FRAMES });
         }
         let camera = self.camera(scene, film);
-        let mut renderer = OffscreenRenderer::new(scene, &camera, self.settings.picture_size())?;
+        let mut renderer = OffscreenRenderer::new(scene, &camera, self.settings.size)?;
         // The last frame has the colours of all trails.
         let last = frames.last().ok_or(VideoError::Empty)?;
         let mut whole = Sketch::new(scene);

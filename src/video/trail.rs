@@ -30,8 +30,11 @@ impl Trail {
         if !position.iter().all(|coordinate| coordinate.is_finite()) {
             return;
         }
-        let has_gap = self.newest.is_none_or(|newest| (position - newest).norm() > GAP);
-        self.newest = Some(position);
+        let before = self.newest.replace(position);
+        let has_gap = before.is_none_or(|before| (position - before).norm() > GAP);
+        if has_gap && let Some(piece) = self.pieces.last_mut() {
+            piece.extend(before.filter(|before| piece.last() != Some(before)));
+        }
         match self.pieces.last_mut() {
             Some(piece) if !has_gap => {
                 if piece.last().is_none_or(|last| (position - last).norm() >= self.spacing) {
@@ -54,14 +57,15 @@ impl Trail {
         pieces
     }
 
-    /// Keeps every second point. A piece of one point is given up, except for the last one, which may go on.
+    /// Keeps every second point and the last one. A piece of one point is given up, except for the last one, which may go on.
     fn thin(&mut self) {
         self.spacing *= 2.0;
         let last = self.pieces.pop();
         self.pieces.retain(|piece| piece.len() > 1);
         self.pieces.extend(last);
         for piece in &mut self.pieces {
-            *piece = piece.iter().step_by(2).copied().collect();
+            let last = piece.last().copied().filter(|_| piece.len().is_multiple_of(2));
+            *piece = piece.iter().step_by(2).copied().chain(last).collect();
         }
     }
 }
@@ -94,12 +98,12 @@ mod tests {
     #[test]
     fn a_trail_ends_at_a_gap_and_begins_behind_it() {
         let mut trail = Trail::default();
-        for x in [0.0, 0.005, 0.01, 0.1, 0.105, f64::NAN, 0.107] {
+        for x in [0.0, 0.005, 0.01, 0.012, 0.1, 0.105, f64::NAN, 0.107] {
             trail.add(Point3::new(x, 0.0, 0.0));
         }
         let pieces = trail.pieces();
         let pieces: Vec<Vec<f64>> = pieces.iter().map(|piece| piece.iter().map(|point| point.x).collect()).collect();
-        assert_eq!(pieces, [vec![0.0, 0.005, 0.01], vec![0.1, 0.105, 0.107]]);
+        assert_eq!(pieces, [vec![0.0, 0.005, 0.01, 0.012], vec![0.1, 0.105, 0.107]]);
     }
 
     #[test]

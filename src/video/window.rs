@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use vibrissa_runtime::machine::Observer;
 
 use crate::mujoco::WindowError;
-use crate::mujoco::visual::{Camera, Shown, Window};
+use crate::mujoco::visual::{Camera, Shown, Window, top};
 use crate::run::{Trace, Watcher};
 use crate::scene::Scene;
 use crate::world::World;
@@ -18,7 +18,7 @@ use super::sketch::{Sketch, area};
 const ASPECT: f64 = 16.0 / 9.0;
 /// Time between two pictures while the run waits for the clock.
 const REFRESH: Duration = Duration::from_millis(15);
-/// A run that is slower than real time shows at least one picture in this time.
+/// A run that is slower than real time shows a picture at the first tick after this time.
 const SLOWEST: Duration = Duration::from_millis(100);
 
 /// Shows a run in real time. The run waits while the window is paused, and goes on without the window if it is closed.
@@ -37,7 +37,7 @@ impl RunWindow {
     /// # Errors
     /// [`WindowError`] if there is no desktop.
     pub fn open(scene: &Scene) -> Result<Self, WindowError> {
-        let camera = Camera::around(&area(scene, [&scene.start]), ASPECT);
+        let camera = Camera::around(&area(scene, [&scene.start]), top(&scene.physics), ASPECT);
         let window = Window::open(scene, &camera)?;
         let sketch = Sketch::new(scene);
         Ok(Self { window: Some(window), sketch, start: None, last_picture: Instant::now(), failure: None })
@@ -69,6 +69,9 @@ impl RunWindow {
                 Shown::Open => {
                     let left = time.saturating_sub(start.elapsed());
                     if left.is_zero() {
+                        // A run that was slow goes on in real time, not faster.
+                        let is_behind = start.elapsed().saturating_sub(time) > SLOWEST;
+                        start = Instant::now().checked_sub(time).filter(|_| is_behind).unwrap_or(start);
                         break;
                     }
                     sleep(left.min(REFRESH));

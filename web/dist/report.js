@@ -177,9 +177,8 @@
     }
     /** The position (px of the picture) of a pointer. */
     position(event) {
-      const box = this.#svg.getBoundingClientRect();
-      const [width, height] = this.#visible();
-      return [this.#left + (event.clientX - box.left) / box.width * width, this.#top + (event.clientY - box.top) / box.height * height];
+      const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.#svg.getScreenCTM()?.inverse());
+      return [x, y];
     }
     /** Zooms by a factor. The position (px of the picture) stays where it is. */
     by(factor, x = this.#left + 0.5 * this.#visible()[0], y = this.#top + 0.5 * this.#visible()[1]) {

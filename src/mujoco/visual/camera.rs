@@ -2,7 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::geometry::BoundingBox;
+use crate::geometry::{BoundingBox, Point2};
+use crate::world::raised;
 
 /// Vertical angle of view (rad).
 const FIELD_OF_VIEW: f64 = 40.0_f64.to_radians();
@@ -23,18 +24,20 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The nearest camera that has the whole area in its picture, whose width is `aspect` times its height.
+    /// The nearest camera that has the whole area at heights from `-top` to `top` (m) in its picture, whose width is `aspect` times its
+    /// height.
     #[must_use]
-    pub fn around(area: &BoundingBox, aspect: f64) -> Self {
+    pub fn around(area: &BoundingBox, top: f64, aspect: f64) -> Self {
         let (ahead, right, up) = frame();
         let middle = area.min + 0.5 * (area.max - area.min);
         let looks_at = Point3::new(middle.x, middle.y, 0.0);
         let vertical = FILLED * (0.5 * FIELD_OF_VIEW).tan();
         let horizontal = vertical * aspect;
-        let corners = [area.min.x, area.max.x].into_iter().flat_map(|x| [area.min.y, area.max.y].map(|y| (x, y)));
+        let corners = [area.min, area.max, Point2::new(area.min.x, area.max.y), Point2::new(area.max.x, area.min.y)];
+        let corners = corners.into_iter().flat_map(|corner| [-top, top].map(|height| raised(corner, height)));
         // A corner is in the picture if its offset from the axis is at most its depth times the tangent of half the angle.
-        let distances = corners.map(|(x, y)| {
-            let corner = Point3::new(x, y, 0.0) - looks_at;
+        let distances = corners.map(|corner| {
+            let corner = corner - looks_at;
             let offset = (corner.dot(&right).abs() / horizontal).max(corner.dot(&up).abs() / vertical);
             offset - corner.dot(&ahead)
         });
@@ -62,25 +65,25 @@ fn frame() -> (Vector3<f64>, Vector3<f64>, Vector3<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point2;
     use proptest::prelude::*;
 
     proptest! {
         #[test]
         fn the_area_is_in_the_picture_and_touches_its_margin(
-            x in -5.0..5.0, y in -5.0..5.0, width in 0.01..3.0, height in 0.01..3.0, aspect in 0.3..3.0
+            x in -5.0..5.0, y in -5.0..5.0, width in 0.01..3.0, height in 0.01..3.0, top in 0.0..1.0, aspect in 0.3..3.0
         ) {
             let area = BoundingBox::around(Point2::new(x, y), Point2::new(x + width, y + height));
-            let camera = Camera::around(&area, aspect);
+            let camera = Camera::around(&area, top, aspect);
             // By a rotation matrix of nalgebra instead of the vectors of `frame`.
             let view = nalgebra::Isometry3::look_at_rh(&camera.position, &camera.looks_at, &Vector3::z());
             let projection = nalgebra::Perspective3::new(aspect, camera.field_of_view, 1e-3, 1e3);
             let corners = [(x, y), (x + width, y), (x, y + height), (x + width, y + height)];
-            let farthest = corners.map(|(x, y)| {
-                let seen = projection.project_point(&(view * Point3::new(x, y, 0.0)));
+            let corners = corners.into_iter().flat_map(|(x, y)| [-top, top].map(|z| Point3::new(x, y, z)));
+            let farthest = corners.map(|corner| {
+                let seen = projection.project_point(&(view * corner));
                 seen.x.abs().max(seen.y.abs())
             });
-            let farthest = farthest.into_iter().fold(0.0, f64::max);
+            let farthest = farthest.fold(0.0, f64::max);
             prop_assert!((farthest - FILLED).abs() < 1e-9, "{farthest}");
         }
     }

@@ -15,9 +15,9 @@ pub use camera::Camera;
 pub(crate) use drawing::{Drawing, Stroke};
 pub(crate) use model::top;
 #[cfg(feature = "render")]
-pub use offscreen::RenderError;
+pub(crate) use offscreen::OffscreenRenderer;
 #[cfg(feature = "render")]
-pub(crate) use offscreen::{OffscreenRenderer, PictureSize};
+pub use offscreen::RenderError;
 #[cfg(feature = "viewer")]
 pub use window::WindowError;
 #[cfg(feature = "viewer")]

@@ -1,6 +1,6 @@
 //! Pictures without a window.
 
-use mujoco_rs::renderer::MjRenderer;
+use mujoco_rs::renderer::{MjRenderer, RendererError};
 use mujoco_rs::wrappers::mj_visualization::{MjtCamera, MjvCamera};
 
 use crate::mujoco::world::MujocoError;
@@ -10,15 +10,6 @@ use super::camera::Camera;
 use super::drawing::{Drawing, MOST_SEGMENTS};
 use super::model::VisualModel;
 use super::whole_message;
-
-/// The size of pictures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct PictureSize {
-    /// Width (px).
-    pub(crate) width: u32,
-    /// Height (px).
-    pub(crate) height: u32,
-}
 
 /// The reason why no picture can be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -44,12 +35,12 @@ pub(crate) struct OffscreenRenderer {
 }
 
 impl OffscreenRenderer {
-    /// Opens OpenGL on the calling thread.
+    /// Opens OpenGL on the calling thread, for pictures of this width and height (px).
     ///
     /// # Errors
     /// [`RenderError`] if the model cannot be built, or if there is no OpenGL.
-    pub(crate) fn new(scene: &Scene, camera: &Camera, size: PictureSize) -> Result<Self, RenderError> {
-        let visual = VisualModel::new(scene, camera, [size.width, size.height])?;
+    pub(crate) fn new(scene: &Scene, camera: &Camera, [width, height]: [u32; 2]) -> Result<Self, RenderError> {
+        let visual = VisualModel::new(scene, camera, [width, height])?;
         let [elevation, azimuth] = Camera::angles_deg();
         let camera = MjvCamera {
             type_: MjtCamera::mjCAMERA_FREE as i32,
@@ -59,10 +50,13 @@ impl OffscreenRenderer {
             elevation,
             ..MjvCamera::default()
         };
-        let builder = MjRenderer::builder().width(size.width).height(size.height).camera(camera);
+        let builder = MjRenderer::builder().width(width).height(height).camera(camera);
         let capacity = u32::try_from(MOST_SEGMENTS).unwrap_or(u32::MAX);
         let renderer = builder.num_visual_user_geom(capacity).build(visual.model());
-        let renderer = renderer.map_err(|error| RenderError::NoContext(whole_message(&error)))?;
+        let renderer = renderer.map_err(|error| match error {
+            RendererError::GlutinError(_) => RenderError::NoContext(whole_message(&error)),
+            _ => RenderError::Draw(whole_message(&error)),
+        })?;
         Ok(Self { visual, renderer })
     }
 

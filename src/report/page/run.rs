@@ -122,10 +122,14 @@ pub(super) fn overview(runs: &[PageRun<'_>]) -> Markup {
                     div.lane { (band(run, &format!("band{index}-"), longest)) }
                 }
                 div.label {}
-                div.axis { @for quarter in 0..=4_u8 { span { (format!("{:.0} s", 0.25 * f64::from(quarter) * longest)) } } }
+                div.axis { @for quarter in 0..=4_u8 { span { (seconds(0.25 * f64::from(quarter) * longest)) } } }
             }
         }
     }
+}
+
+fn seconds(time: f64) -> String {
+    if time < 10.0 { format!("{time:.1} s") } else { format!("{time:.0} s") }
 }
 
 /// For each policy, its run with the largest error.

@@ -330,6 +330,7 @@ fn an_ffmpeg_that_fails_or_is_missing_is_told_with_what_to_do() {
     let output = run_with(&folder, "run.mp4", &[("PATH", &format!("{}:/usr/bin:/bin", folder.display()))]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("Unknown encoder libx264"), "{}", stderr(&output));
+    assert!(stdout(&output).contains("scene"), "the result of the run is not lost");
     let output = run_with(&folder, "run.mp4", &[("PATH", "/nonexistent")]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("install it, or write a .gif"), "{}", stderr(&output));

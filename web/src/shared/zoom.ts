@@ -38,9 +38,9 @@ export class Zoom {
 
   /** The position (px of the picture) of a pointer. */
   position(event: MouseEvent): [number, number] {
-    const box = this.#svg.getBoundingClientRect();
-    const [width, height] = this.#visible();
-    return [this.#left + ((event.clientX - box.left) / box.width) * width, this.#top + ((event.clientY - box.top) / box.height) * height];
+    // The picture may be narrower than its element.
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.#svg.getScreenCTM()?.inverse());
+    return [x, y];
   }
 
   /** Zooms by a factor. The position (px of the picture) stays where it is. */
