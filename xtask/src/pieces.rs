@@ -88,6 +88,7 @@ impl Counts {
 /// Removes each part in turn, runs the scenes and writes the page.
 pub(crate) fn write(root: &Path, options: &Options) -> Result<(), PiecesError> {
     let files = Files::read(root, POLICY)?;
+    let commit = results::commit(root)?;
     if options.program.is_none() {
         results::build(root)?;
     }
@@ -120,7 +121,7 @@ pub(crate) fn write(root: &Path, options: &Options) -> Result<(), PiecesError> {
         eprintln!("      {} of {count}: {file}, line {}: {counts:?}", index + 1, piece.lines.start + 1);
         worths.push(Worth { file, piece, counts });
     }
-    fs::write(root.join(PAGE), page(&worths, base.len()))?;
+    fs::write(root.join(PAGE), page(&worths, base.len(), &commit))?;
     println!("      {PAGE}");
     Ok(())
 }
@@ -165,14 +166,15 @@ fn run(root: &Path, program: Option<&Path>, files: &Files, command: &str) -> Res
     Ok(Some(runs.items().iter().map(verdict).collect::<Result<_, NoKey>>()?))
 }
 
-fn page(worths: &[Worth], runs: usize) -> String {
+fn page(worths: &[Worth], runs: usize, commit: &str) -> String {
     let mut page = format!(
         "# What each part of `vibrissa.fsm` is worth\n\n\
          Written by `cargo x pieces`. Each transition, rule and statement of the policy and of the libraries that it uses was removed \
          in turn. The policy then ran in {runs} random scenes of the [families](../families.md), quasi-static. If no run changed, it ran in 120 \
          further scenes, and then in the [bench](../bench.md) with friction and noise.\n\n\
          *Lost* is the number of runs that passed with the part and not without it, less those that passed only without it. *Changed* is the \
-         number of runs with other figures.\n"
+         number of runs with other figures.\n\n\
+         The policy is that of commit {commit}.\n"
     );
     let needed = worths.iter().filter(|worth| worth.counts.is_none()).count();
     let _ = writeln!(
@@ -214,7 +216,7 @@ mod tests {
         let piece = |line| Piece { lines: line..line + 1, text: "when |a| > b -> C".to_owned() };
         let worth = |line, counts| Worth { file: "a.fsm".to_owned(), piece: piece(line), counts };
         let worths = [worth(0, None), worth(1, Some(Counts { with: 3, without: 5, changed: 4 }))];
-        let page = page(&worths, 6);
+        let page = page(&worths, 6, "`1234567` of 2026-01-02");
         assert!(
             page.contains("without 1 of the 2 parts") && page.contains("| 2 | `when \\|a\\| > b -> C` | -2 | 4 |"),
             "{page}"

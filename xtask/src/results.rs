@@ -144,7 +144,7 @@ pub(crate) fn output(root: &Path, program: Option<&Path>, command: &str) -> Resu
 }
 
 /// The commit that last changed the program, its date, and whether there are changes that are not committed.
-fn commit(root: &Path) -> Result<String, ResultsError> {
+pub(crate) fn commit(root: &Path) -> Result<String, ResultsError> {
     let git = |arguments: &[&str]| {
         let output = Command::new("git").args(arguments).arg("--").args(PROGRAM).current_dir(root).output();
         let output = output.map_err(|error| ResultsError::Git(error.to_string()))?;
