@@ -57,15 +57,14 @@ impl Trail {
         pieces
     }
 
-    /// Keeps every second point and the last one. A piece of one point is given up, except for the last one, which may go on.
+    /// Keeps every second point. A piece of one point is given up, except for the last one, which may go on.
     fn thin(&mut self) {
         self.spacing *= 2.0;
         let last = self.pieces.pop();
         self.pieces.retain(|piece| piece.len() > 1);
         self.pieces.extend(last);
         for piece in &mut self.pieces {
-            let last = piece.last().copied().filter(|_| piece.len().is_multiple_of(2));
-            *piece = piece.iter().step_by(2).copied().chain(last).collect();
+            *piece = piece.iter().step_by(2).copied().collect();
         }
     }
 }
