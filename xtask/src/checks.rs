@@ -90,9 +90,6 @@ pub(crate) enum CheckError {
 /// `cargo test` by itself draws new cases each time.
 const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 
-/// The features that are not there by default.
-pub(crate) const FEATURES: &str = "vibrissa/lsp,vibrissa/outlines";
-
 /// In this order: what fails soonest comes first, and the core is compiled before there need be any MuJoCo. Its tests take too
 /// long for each change, so they are among the nightly ones (.github/workflows/nightly.yml).
 ///
@@ -125,15 +122,15 @@ const CHECKS: [Check; 20] = [
     Check { title: "book", work: Work::Book },
     Check { title: "scripts of the pages", work: Work::Web },
     Check { title: "set-up", work: Work::Setup },
-    check("lints", &["clippy", "--workspace", "--features", FEATURES, "--all-targets", "--", "--deny", "warnings"]),
-    check_in(&[SAME_CASES], "tests", &["test", "--workspace", "--features", FEATURES]),
+    check("lints", &["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]),
+    check_in(&[SAME_CASES], "tests", &["test", "--workspace"]),
     Check { title: "tests of the runtime and of the robot on aarch64, under an emulator", work: Work::Aarch64 },
     // The tests have built them.
     Check { title: "examples", work: Work::Examples },
     check_in(
         &[("RUSTDOCFLAGS", "--deny=warnings")],
         "documentation",
-        &["doc", "--package", "vibrissa", "--package", "vibrissa-runtime", "--features", FEATURES, "--no-deps"],
+        &["doc", "--package", "vibrissa", "--package", "vibrissa-runtime", "--no-deps"],
     ),
     // Cargo would need the runtime from a registry to build the package, or to write its lock file.
     check(
@@ -158,7 +155,7 @@ const CHECKS: [Check; 20] = [
     ),
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
     // The whole workspace, so that dependencies have the features with which the tests were built.
-    check("benches, each run once", &["test", "--workspace", "--features", FEATURES, "--bench", "*"]),
+    check("benches, each run once", &["test", "--workspace", "--bench", "*"]),
     Check { title: "pages in a browser", work: Work::Browser },
     // The dependencies are those of the tests, and so is the program that it is compared with.
     Check { title: "Python package", work: Work::Python },
@@ -217,7 +214,7 @@ impl Check {
             Work::Web => with_browser_tools(web::check(root)),
             Work::Browser => with_browser_tools(web::browse(root)),
             Work::Examples => examples_run(self.title, root),
-            Work::Python => Ok(python::test(root, FEATURES)?),
+            Work::Python => Ok(python::test(root)?),
             Work::CheckoutIsUntouched => checkout_is_untouched(root, before),
         }
     }
@@ -263,8 +260,7 @@ const EXAMPLES: [&str; 2] = ["examples", "crates/runtime/examples"];
 /// Runs every example as a program. They are built as one workspace, as the tests have built them. `cargo run` of one
 /// package would build dependencies again, because they get fewer features.
 fn examples_run(title: &'static str, root: &Path) -> Result<(), CheckError> {
-    const BUILD: CargoRun =
-        CargoRun { environment: &[], arguments: &["build", "--workspace", "--features", FEATURES, "--examples"] };
+    const BUILD: CargoRun = CargoRun { environment: &[], arguments: &["build", "--workspace", "--examples"] };
     BUILD.succeed(title, root)?;
     let programs = target_directory(root).join("debug/examples");
     for folder in EXAMPLES {

@@ -66,7 +66,7 @@ fn main() -> ExitCode {
         Command::Results(selection) => status(results::write(&root, &selection)),
         Command::Nightly(options) => status(nightly::nightly(&root, &options)),
         Command::Pieces(options) => status(pieces::write(&root, &options)),
-        Command::Python => status(python::test(&root, checks::FEATURES)),
+        Command::Python => status(python::test(&root)),
         Command::Pi => status(pi::pack(&root)),
         Command::Web => status(web::write(&root)),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),

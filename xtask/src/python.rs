@@ -40,7 +40,7 @@ pub(crate) enum PythonError {
 }
 
 /// Builds the wheel, installs it into a fresh virtual environment, and runs its tests there.
-pub(crate) fn test(root: &Path, features: &str) -> Result<(), PythonError> {
+pub(crate) fn test(root: &Path) -> Result<(), PythonError> {
     let target = target_directory(root);
     let folder = target.join("python");
     let maturin = maturin(&folder)?;
@@ -50,7 +50,7 @@ pub(crate) fn test(root: &Path, features: &str) -> Result<(), PythonError> {
     build
         .args(["build", "--quiet", "--profile", "dev", "--manifest-path", "crates/python/Cargo.toml", "--out"])
         .arg(&wheels);
-    build.args(["--interpreter", "python3"]).current_dir(root).env("CARGO", workspace_cargo(&folder, features)?);
+    build.args(["--interpreter", "python3"]).current_dir(root).env("CARGO", workspace_cargo(&folder)?);
     succeed(build, PythonError::NotBuilt)?;
     let wheel = wheel_in(&wheels).ok_or(PythonError::NotBuilt)?;
 
@@ -84,12 +84,12 @@ fn maturin(folder: &Path) -> Result<PathBuf, PythonError> {
 
 /// A script that stands for Cargo. maturin builds a package alone, whose dependencies have fewer features than in the
 /// workspace, so that all of them would be compiled once more. The script builds the package with the workspace, with the
-/// features and dependencies of the tests.
-fn workspace_cargo(folder: &Path, features: &str) -> Result<PathBuf, PythonError> {
+/// dependencies of the tests.
+fn workspace_cargo(folder: &Path) -> Result<PathBuf, PythonError> {
     let path = folder.join("cargo");
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let script = format!(
-        "#!/bin/sh\ncase \"$1\" in\nrustc) exec '{cargo}' build --workspace --features {features} --lib --bins --examples --message-format \
+        "#!/bin/sh\ncase \"$1\" in\nrustc) exec '{cargo}' build --workspace --lib --bins --examples --message-format \
          json-render-diagnostics ;;\n*) exec '{cargo}' \"$@\" ;;\nesac\n"
     );
     let disk = |source| PythonError::Disk { action: "write", path: path.clone(), source };
