@@ -1,5 +1,6 @@
 //! The control loop in a world.
 
+mod arrays;
 mod hostile;
 mod mismatch;
 mod stepped_run;

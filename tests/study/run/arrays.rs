@@ -1,0 +1,61 @@
+//! Runs of arrays that differ from their models and have calibrated themselves.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use vibrissa::built_in::SCENARIOS;
+use vibrissa::diagnostic::Source;
+use vibrissa::policy::{compile, gather};
+use vibrissa::scenario::{self, read_calibration, read_mismatch};
+use vibrissa::scene::{Outcome, Scene, WorldKind};
+use vibrissa::trial::{Trial, in_parallel, processors};
+
+/// The arrays that `scenarios/mismatch/array.yaml` draws by these seeds, and that of `plausible.yaml`. `tests/fixtures/arrays` has
+/// their calibrations, from `vibrissa calibrate --self`.
+const SEEDS: [Option<u64>; 11] =
+    [None, Some(1), Some(2), Some(3), Some(4), Some(5), Some(6), Some(7), Some(8), Some(9), Some(10)];
+
+fn text(path: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+/// The disk with a calibrated array.
+fn scene(seed: Option<u64>) -> Scene {
+    let mut scene = scenario::read(&Source::new(SCENARIOS[0].path, SCENARIOS[0].text)).unwrap();
+    let path = if seed.is_some() { "scenarios/mismatch/array.yaml" } else { "scenarios/mismatch/plausible.yaml" };
+    let mut mismatch = read_mismatch(&Source::new(path, text(path))).unwrap();
+    mismatch.seed = seed;
+    scene.mismatch = Some(mismatch);
+    let name = seed.map_or("plausible".to_owned(), |seed| seed.to_string());
+    for whisker in &mut scene.rig.whiskers {
+        let file = format!("tests/fixtures/arrays/{name}/{}.yaml", whisker.name);
+        whisker.calibration = Some(read_calibration(&text(&file)).unwrap());
+    }
+    scene
+}
+
+/// On a convex object no whisker is caught by a surface that turns towards it. The base angle of a whisker that rotates to another
+/// posture must not look like that.
+#[test]
+fn calibrated_arrays_trace_the_disk_without_a_wrong_tip_in_both_worlds() {
+    let source = Source::new("vibrissa.fsm", text("policies/vibrissa.fsm"));
+    let program = Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not there")))).unwrap());
+    let worlds = WorldKind::ALL.into_iter().filter(|kind| cfg!(feature = "sim") || *kind == WorldKind::QuasiStatic);
+    let trials: Vec<_> = worlds
+        .flat_map(|world| SEEDS.map(|seed| (world, seed)))
+        .map(|(world, seed)| {
+            let mut trial = Trial::new(scene(seed), Arc::clone(&program));
+            trial.world = world.into();
+            (world, seed, trial)
+        })
+        .collect();
+    let results = in_parallel(&trials, processors(), |(_, _, trial)| trial.run().unwrap(), |_| ());
+    for ((world, seed, _), result) in trials.iter().zip(&results) {
+        let case = format!("{world}, array {seed:?}");
+        assert_eq!(result.run.outcome, Outcome::Completed, "{case}");
+        assert_eq!(result.violations, vec![], "{case}");
+        assert_eq!(result.score.collisions.count, 0, "{case}");
+        let error = result.score.error.as_ref().unwrap();
+        assert!(error.max < 2e-3, "{case}: a tip is {:.2} mm off", error.max * 1e3);
+    }
+}
