@@ -1,14 +1,20 @@
 //! Lets programs find MuJoCo's library where set-up put it, with no environment variable.
 
 use std::env;
+use std::fs;
+use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
 use std::process::exit;
 
 /// The directory that mujoco-rs links against; `.cargo/config.toml` sets it.
 const LINK_DIR: &str = "MUJOCO_DYNAMIC_LINK_DIR";
+/// Everything of this repository that the results of a simulation depend on. A package does not have the folder of the runtime, whose
+/// version is in the other file.
+const SOURCES: [&str; 3] = ["src", "crates/runtime/src", "Cargo.lock"];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    name_sources();
     if env::var_os("CARGO_FEATURE_SIM").is_none() {
         return;
     }
@@ -34,5 +40,31 @@ fn main() {
     } else {
         // Functions that the program has under MuJoCo's names are its own: the library shall not take them for those in itself.
         println!("cargo::rustc-link-arg=-Wl,--exclude-libs,ALL");
+    }
+}
+
+/// Sets `VIBRISSA_SOURCES` to a hash of the sources, so that the program does not use what another version of it has kept.
+fn name_sources() {
+    let mut hash = DefaultHasher::new();
+    for source in SOURCES.map(Path::new) {
+        if source.exists() {
+            println!("cargo::rerun-if-changed={}", source.display());
+            add_source(source, &mut hash);
+        }
+    }
+    println!("cargo::rustc-env=VIBRISSA_SOURCES={:016x}", hash.finish());
+}
+
+/// Adds the names and contents of files, in the order of their names.
+fn add_source(path: &Path, hash: &mut DefaultHasher) {
+    let Ok(entries) = fs::read_dir(path) else {
+        hash.write(path.as_os_str().as_encoded_bytes());
+        hash.write(&fs::read(path).unwrap_or_default());
+        return;
+    };
+    let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        add_source(&path, hash);
     }
 }

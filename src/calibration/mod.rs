@@ -1,5 +1,7 @@
 //! Calibration of a whisker: files of contact sets, contact sets from a simulation, and fits.
 
+mod array_calibration;
+mod array_calibrations;
 mod array_pilot;
 mod contact_sets;
 mod count_set;
@@ -12,6 +14,8 @@ mod touch_procedure;
 mod undetermined;
 mod whisker_touches;
 
+pub use array_calibration::{ArrayCalibration, ArrayCalibrationError};
+pub use array_calibrations::ArrayCalibrations;
 pub use contact_sets::{SetsError, read_count_sets, read_sets, write_sets};
 pub use count_set::{CountSet, fit_field};
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};

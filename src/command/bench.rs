@@ -5,22 +5,19 @@ use std::sync::Arc;
 
 use clap::Args;
 use sha2::{Digest, Sha256};
-use vibrissa_runtime::rig::Rig;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{ConditionOptions, Format, Jobs, MismatchOptions, Policies, WorldOptions};
+use super::options::{ArrayOptions, ConditionOptions, Format, Jobs, Policies, WorldOptions};
 use super::output;
 use super::trials::{Finished, inputs, make_directory, run_all};
+use super::values::parse_seed;
 use crate::built_in::SCENARIOS;
-use crate::calibration::TouchLimits;
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, LoadError};
-use crate::physics::Physics;
+use crate::load::{self, GivenMismatch, LoadError, check_noise_seed};
 use crate::report::{RunFigures, bench_page, bench_table, pooled_tips};
 use crate::results::{Document, RunResult};
-use crate::scene::{Outcome, Scene, Violation, WorldSetup};
-use crate::study::ArrayCalibration;
+use crate::scene::{Outcome, Violation};
 use crate::study::bench::{BenchRow, Conditions};
 use crate::study::compare::OlderRuns;
 use crate::trial::Trial;
@@ -55,26 +52,26 @@ pub(super) struct BenchTrials {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
-    mismatch: MismatchOptions,
-    /// With a mismatch, control assumes the rig of the scene. By default, the array first calibrates itself by touches of a pin
-    #[arg(long)]
-    uncalibrated: bool,
+    array: ArrayOptions,
+    /// Seed of the noise of sensors and poses. Overrides the seeds of the scenes. Refused if no run has noise
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
+    seed: Option<u64>,
 }
 
 pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let trials = bench_trials(&arguments.trials, &mut files)?;
+    let (trials, array) = bench_trials(&arguments.trials, &mut files)?;
     let older = arguments.against.as_deref().map(|path| older_runs(path, &mut files)).transpose()?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &trials, &mut files)).transpose()?;
     let (conditions, trials): (Vec<_>, Vec<_>) = trials.into_iter().unzip();
-    let finished = run_all(&trials, arguments.jobs, |_| arguments.out.is_some())?;
+    let finished = run_all(&trials, &array, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut figures) = (Vec::with_capacity(finished.len()), Vec::new());
     for (Finished { result, violations, figures: drawn }, conditions) in finished.into_iter().zip(conditions) {
         let row = BenchRow::new(result, violations.is_empty()).under(conditions);
         report_row(&row, &violations);
         rows.push(row);
-        figures.extend(drawn);
+        figures.push(drawn.unwrap_or_else(RunFigures::none));
     }
     let page = report.map(|report| report.write(&rows, &figures, older.as_ref())).transpose()?;
     output::documents(arguments.format, &rows, || [bench_table(&rows)])?;
@@ -98,16 +95,15 @@ fn older_runs(path: &Path, files: &mut CommandFiles) -> Result<OlderRuns, Failur
     read.map_err(|cause| Failure::Older { path, cause })
 }
 
-/// The trials of every scenario under every policy and all conditions. The runs of a scenario are consecutive.
+/// The trials of every scenario under every policy and all conditions, and their array, which is not yet calibrated. The runs of a scenario are consecutive.
 pub(super) fn bench_trials(
     arguments: &BenchTrials,
     files: &mut CommandFiles,
-) -> Result<Vec<(Conditions, Trial)>, Failure> {
+) -> Result<(Vec<(Conditions, Trial)>, GivenMismatch), Failure> {
     let (policies, conditions) = (arguments.policies.load(files)?, arguments.conditions.all());
-    let mismatch = arguments.mismatch.load(files)?;
+    let mismatch = arguments.array.load(files)?;
     let scenarios = SCENARIOS.iter().map(|file| Ok((file, load::built_in_scenario(file)?)));
     let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
-    let mut calibrated = CalibratedArrays::default();
     let mut trials = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());
     for (file, scenario) in &scenarios {
         for policy in &policies {
@@ -121,37 +117,18 @@ pub(super) fn bench_trials(
                 let path = Path::new(file.path);
                 mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(path))?;
                 let world = arguments.world.of(&scene);
-                if scene.mismatch.is_some() && !arguments.uncalibrated {
-                    calibrated.apply(&mut scene, world)?;
-                    scenario_hash.update("\0calibrated");
-                }
                 let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
                 let inputs = inputs(path, &hashes.0, &hashes.1);
                 let trial = Trial::new(scene, Arc::new(policy.value.artifact.program.clone()));
-                trials.push((conditions, Trial { world, inputs, ..trial }));
+                let seed = arguments.seed.unwrap_or(trial.seed);
+                trials.push((conditions, Trial { world, seed, inputs, ..trial }));
             }
         }
     }
-    Ok(trials)
-}
-
-/// Arrays that have calibrated themselves. Scenes with the same rig and physics share one.
-#[derive(Default)]
-struct CalibratedArrays(Vec<(Rig, Physics, ArrayCalibration)>);
-
-impl CalibratedArrays {
-    /// Gives the rig of a scene the calibrations of its true array.
-    fn apply(&mut self, scene: &mut Scene, world: WorldSetup) -> Result<(), Failure> {
-        let is_same = |(rig, physics, _): &&(Rig, Physics, _)| *rig == scene.rig && *physics == scene.physics;
-        if let Some((.., found)) = self.0.iter().find(is_same) {
-            return Ok(found.apply(&mut scene.rig)?);
-        }
-        let found = ArrayCalibration::run(scene, world, scene.seed, &TouchLimits::default())?;
-        let rig = scene.rig.clone();
-        found.apply(&mut scene.rig)?;
-        self.0.push((rig, scene.physics.clone(), found));
-        Ok(())
-    }
+    let scenes = || trials.iter().map(|(_, trial)| &trial.scene);
+    mismatch.check_seed(scenes()).map_err(LoadError::from)?;
+    check_noise_seed(arguments.seed, scenes()).map_err(LoadError::from)?;
+    Ok((trials, mismatch))
 }
 
 /// Reports the reason of an incomplete run, and the expectations that do not hold without friction, noise and mismatch.

@@ -13,14 +13,13 @@ use super::failure::Failure;
 use super::output;
 use super::trials::make_directory;
 use crate::built_in::SCENARIOS;
-use crate::calibration::{TouchLimits, WhiskerTouches, undetermined, write_touches};
+use crate::calibration::{ArrayCalibration, TouchLimits, WhiskerTouches, undetermined, write_touches};
 use crate::file::{CommandFiles, Output};
 use crate::load;
 use crate::report::measured_table;
 use crate::results::Document;
 use crate::scenario::write_calibration;
 use crate::scene::Scene;
-use crate::study::ArrayCalibration;
 use crate::trial::in_parallel;
 
 /// The JSON output for one whisker.

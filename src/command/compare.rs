@@ -8,13 +8,13 @@ use sha2::{Digest, Sha256};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
+use super::options::{ArrayOptions, Format, Jobs, WorldOptions};
 use super::output;
 use super::trials::{inputs, make_directory, run_all};
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, Loaded};
+use crate::load::{self, GivenMismatch, LoadError, Loaded};
 use crate::report::{comparison_page, comparison_tables};
 use crate::results::{Document, RunResult, marked};
 use crate::scene::{Jitter, Scene};
@@ -44,7 +44,7 @@ pub(super) struct CompareArguments {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     /// Write the comparison, all results and a page with the differences in words into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -68,7 +68,9 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         return Err(Failure::TooFewPolicies { count: policies.len() });
     }
     let mut read = CommandFiles::new();
-    let settings = settings(&scenarios, arguments, &mut read)?;
+    let array = arguments.array.load(&mut read)?;
+    let settings = settings(&scenarios, &array, arguments, &mut read)?;
+    array.check_seed(settings.iter().map(|setting| &setting.scene)).map_err(LoadError::from)?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_deref().map(|directory| Report::new(directory, &mut read)).transpose()?;
     let mut trials = Vec::with_capacity(policies.len() * settings.len());
@@ -82,7 +84,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
             trials.push(Trial { world: arguments.world.of(scene), inputs, ..trial });
         }
     }
-    let mut results = run_all(&trials, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
+    let mut results = run_all(&trials, &array, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
     let runs: Vec<_> = policies
         .iter()
         .map(|path| {
@@ -137,6 +139,7 @@ fn report_incomplete(comparison: &Comparison) {
 /// The runs of every policy: each scenario as it is, and then with other seeds and starts.
 fn settings(
     files: &[&PathBuf],
+    mismatch: &GivenMismatch,
     arguments: &CompareArguments,
     read: &mut CommandFiles,
 ) -> Result<Vec<Setting>, Failure> {
@@ -160,7 +163,6 @@ fn settings(
             "--jitter does not affect the first run of a scenario; request more runs with --seeds"
         ));
     }
-    let mismatch = arguments.mismatch.load(read)?;
     let mut settings = Vec::new();
     for (path, Loaded { value: scene, hash }) in scenarios {
         let mut first = scene.clone();

@@ -8,12 +8,13 @@ use clap::Args;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::inspect::{breakpoints, with_program};
-use super::options::{Format, MismatchOptions, WorldOptions};
+use super::options::{ArrayOptions, Format, WorldOptions};
 use super::output;
+use super::trials::{calibrated, say_calibrations};
 use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::CommandFiles;
 use crate::inspect::{Breakpoints, PolicyDifference, first_difference};
-use crate::load::{self, Loaded};
+use crate::load::{self, LoadError, Loaded};
 use crate::report::difference_tables;
 use crate::scene::Scene;
 use crate::trial::{Inputs, Trial};
@@ -36,7 +37,7 @@ pub(super) struct DiffArguments {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     #[command(flatten)]
     format: Format,
 }
@@ -44,18 +45,23 @@ pub(super) struct DiffArguments {
 pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let policies = [explained(&arguments.first, &mut files)?, explained(&arguments.second, &mut files)?];
-    let mismatch = arguments.mismatch.load(&mut files)?;
+    let mismatch = arguments.array.load(&mut files)?;
+    let mut scenes = scenes(&arguments.scenarios, &mut files)?;
+    for (path, Loaded { value: scene, hash }) in &mut scenes {
+        mismatch.apply(scene, hash, 0).map_err(Failure::mismatch(path))?;
+    }
+    mismatch.check_seed(scenes.iter().map(|(_, scenario)| &scenario.value)).map_err(LoadError::from)?;
     let mut differences = Vec::new();
-    for (path, Loaded { value: mut scene, hash: mut scenario_hash }) in scenes(&arguments.scenarios, &mut files)? {
-        mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
+    for (path, Loaded { value: scene, .. }) in scenes {
         let trial = |policy: &Breakpoints| {
             let world = arguments.world.of(&scene);
             let inputs = Inputs { scenario: path.clone(), ..Inputs::default() };
             let trial = Trial::new(scene.clone(), Arc::new(policy.explained.program.clone()));
-            with_program(&Trial { world, inputs, ..trial }, policy)
+            calibrated(&with_program(&Trial { world, inputs, ..trial }, policy), &mismatch)
         };
         let [first, second] = &policies;
-        let (own, other) = (trial(first), trial(second));
+        let (own, other) = (trial(first)?, trial(second)?);
+        say_calibrations(std::iter::once(&own));
         differences.push(first_difference(&own, [first, second], &other).map_err(Failure::execute(&own))?);
     }
     output::documents(arguments.format, &differences, || {

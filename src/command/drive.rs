@@ -25,7 +25,7 @@ use crate::emulated;
 use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
-use crate::load::{self, Loaded};
+use crate::load::{self, GivenMismatch, Loaded};
 use crate::report::{faults_table, results_table};
 use crate::results::DriveResult;
 use crate::trial::{Inputs, Trial};
@@ -62,6 +62,10 @@ pub(super) struct DriveArguments {
     seed: Option<u64>,
     #[command(flatten)]
     world: WorldOptions,
+    /// Let control assume the rig of the scenario. By default, an array with a mismatch first calibrates itself by touches of a pin. A
+    /// configuration has its own calibrations
+    #[arg(long, conflicts_with = "config")]
+    uncalibrated: bool,
     /// Record the run into this MCAP file, for `vibrissa keep` and `vibrissa replay`
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
@@ -129,7 +133,12 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
             scene.rig = config.rig.clone();
             (config, Some(text))
         }
-        None => (Config::emulated(scene.rig.clone(), settings.noise_microtesla), None),
+        None => {
+            let array = GivenMismatch::read(None, None, &mut files)?.uncalibrated(arguments.uncalibrated);
+            let world = arguments.world.of(&scene);
+            array.calibrate_scene(&mut scene, world).map_err(Failure::calibration(scenario))?;
+            (Config::emulated(scene.rig.clone(), settings.noise_microtesla), None)
+        }
     };
     #[cfg(feature = "live")]
     let text = policy.value.text.map(|text| text.source);
@@ -162,6 +171,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     };
     let program = Arc::new(artifact.program);
     let trial = Trial { world, seed: settings.seed, ..Trial::new(scene, program) };
+    output::calibrations(trial.calibration().iter());
     let trial = Trial { inputs: Inputs { preparation: before.elapsed(), ..inputs }, ..trial };
     let record = |entry: &LoopRecord| recording.iter_mut().for_each(|recording| recording.take(entry));
     #[cfg(feature = "live")]

@@ -7,15 +7,16 @@ use clap::Args;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, MismatchOptions, WorldOption};
+use super::options::{ArrayOptions, Format, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
+use super::trials::calibrated;
 use crate::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
 use crate::file::CommandFiles;
-use crate::load::{self, Loaded};
+use crate::load::{self, LoadError, Loaded};
 use crate::report::estimators_tables;
-use crate::study::estimators::evaluate_all;
-use crate::trial::in_parallel;
+use crate::study::estimators::{EstimatorRow, evaluate_all};
+use crate::trial::{Trial, in_parallel};
 
 const EXAMPLE: &str = "Example:\n  vibrissa estimators --world quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -26,7 +27,7 @@ pub(super) struct EstimatorsArguments {
     #[command(flatten)]
     world: WorldOption,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     #[command(flatten)]
     format: Format,
     #[command(flatten)]
@@ -35,13 +36,19 @@ pub(super) struct EstimatorsArguments {
 
 pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failure> {
     let program = Arc::new(load::built_in_policy(&DEFAULT_POLICY)?.value.artifact.program);
-    let mismatch = arguments.mismatch.load(&mut CommandFiles::new())?;
+    let mismatch = arguments.array.load(&mut CommandFiles::new())?;
+    mismatch.check_seed(std::iter::empty()).map_err(LoadError::from)?;
     let work = |file: &TextFile| {
         let Loaded { value: mut scene, mut hash } = load::built_in_scenario(file)?;
         mismatch.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(file.path.as_ref()))?;
         let world = arguments.world.of(&scene);
+        let trial = Trial { world: world.into(), ..Trial::new(scene, Arc::clone(&program)) };
+        let trial = calibrated(&trial, &mismatch)?;
         let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
-        evaluate_all(&scene, Arc::clone(&program), world).map_err(failed)
+        let rows = evaluate_all(&trial.scene, Arc::clone(&program), world).map_err(failed)?;
+        Ok::<_, Failure>(
+            rows.into_iter().map(|row| EstimatorRow { calibration: trial.calibration(), ..row }).collect::<Vec<_>>(),
+        )
     };
     // One run at a time by default, because the run times are compared too.
     let threads = arguments.jobs.threads_or(NonZeroUsize::MIN);
@@ -53,6 +60,7 @@ pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failur
     });
     progress.finish();
     let rows = rows.into_iter().collect::<Result<Vec<_>, Failure>>()?.concat();
+    output::calibrations(rows.iter().filter_map(|row| row.calibration.as_ref()));
     output::documents(arguments.format, &rows, || estimators_tables(&rows))?;
     Ok(Exit::Done)
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 #[cfg(feature = "sim")]
 use crate::calibration::CalibrationRigError;
-use crate::calibration::MIN_POSITIONS;
+use crate::calibration::{ArrayCalibrationError, MIN_POSITIONS};
 use crate::emulated::EmulatedError;
 use crate::family::{FAMILIES, NoDraw};
 use crate::file::OutputError;
@@ -21,7 +21,6 @@ use crate::recording::{ReadRecordingError, RecordError};
 use crate::report::ChartTooLarge;
 use crate::request::{RequestError, RequestFault};
 use crate::services::MessagesError;
-use crate::study::ArrayCalibrationError;
 use crate::study::compare::OlderRunsError;
 use crate::study::stress::CaseError;
 use crate::sweep::{PlanError, ResultsError};
@@ -76,6 +75,8 @@ pub(super) enum Failure {
     TooFewSets { count: usize },
     #[error(transparent)]
     ArrayCalibration(#[from] ArrayCalibrationError),
+    #[error("{}: the array cannot be calibrated: {cause}; run it as it is with --uncalibrated", scenario.display())]
+    Calibration { scenario: PathBuf, cause: ArrayCalibrationError },
     #[cfg(feature = "sim")]
     #[error(transparent)]
     CalibrationRig(#[from] CalibrationRigError),
@@ -245,6 +246,12 @@ impl Failure {
         |cause| Self::Mismatch { scenario, cause }
     }
 
+    /// The error of an array that cannot be calibrated before the run of a scenario.
+    pub(super) fn calibration(scenario: &Path) -> impl FnOnce(ArrayCalibrationError) -> Self {
+        let scenario = scenario.to_owned();
+        |cause| Self::Calibration { scenario, cause }
+    }
+
     /// The error of the recording of a simulated run.
     #[cfg(feature = "recording")]
     pub(super) fn run_recording(path: &Path) -> impl FnOnce(ReadRecordingError) -> Self {
@@ -296,6 +303,7 @@ impl From<RequestError> for Failure {
         match error.into_fault() {
             RequestFault::Load(cause) => Self::Load(cause),
             RequestFault::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
+            RequestFault::Calibration { scenario, cause } => Self::Calibration { scenario, cause },
             RequestFault::Set(cause) => Self::Set(cause),
             RequestFault::Machine(cause) => Self::GivenMachine(cause),
         }
@@ -308,6 +316,7 @@ impl From<PlanError> for Failure {
             PlanError::Load(cause) => Self::Load(cause),
             PlanError::Draw(cause) => Self::NoDraw(cause),
             PlanError::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
+            PlanError::Calibration { scenario, cause } => Self::Calibration { scenario, cause },
             PlanError::Execute { scenario, cause } => Self::Execute { scenario, cause },
         }
     }

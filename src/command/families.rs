@@ -9,14 +9,14 @@ use vibrissa_runtime::units::{Dimension, format_si};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{FamilyValues, Format, Jobs, MismatchOptions, Settings, WorldOptions};
+use super::options::{ArrayOptions, FamilyValues, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::trials::{Finished, inputs, make_directory, run_all};
 use super::values::{parse_runs, parse_seed};
 use crate::built_in::DEFAULT_POLICY;
 use crate::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, GivenMismatch, Loaded, Policy, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
 use crate::report::families_table;
 use crate::scene::Violation;
 use crate::trial::{Trial, in_parallel};
@@ -49,7 +49,7 @@ pub(super) struct FamiliesArguments {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy", "settings"])]
     print: bool,
@@ -87,13 +87,14 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     };
     output::warnings(&policy.value);
     let policy = arguments.settings.of(policy)?;
-    let mismatch = arguments.mismatch.load(&mut files)?;
+    let mismatch = arguments.array.load(&mut files)?;
     let trials =
         scenes.iter().map(|scene| trial(scene, &policy, &mismatch, arguments)).collect::<Result<Vec<_>, Failure>>()?;
+    mismatch.check_seed(trials.iter().map(|trial| &trial.scene)).map_err(LoadError::from)?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &scenes, &mut files)).transpose()?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
-    let finished = run_all(&trials, arguments.jobs, is_drawn)?;
+    let finished = run_all(&trials, &mismatch, arguments.jobs, is_drawn)?;
     let (runs, pictures) = with_verdicts(scenes, finished);
     if let Some(report) = report {
         report.write(&runs, pictures)?;

@@ -10,15 +10,15 @@ use super::diff::scenes;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::inspect::breakpoints;
-use super::options::{Format, Jobs, MismatchOptions, Settings, WorldOptions};
+use super::options::{ArrayOptions, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::progress::Progress;
-use super::trials::{drawn, inputs, make_directory};
+use super::trials::{calibrated, drawn, inputs, make_directory, say_calibrations};
 use crate::built_in::DEFAULT_POLICY;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
 use crate::inspect::{Breakpoints, NearMiss, NearMisses};
-use crate::load::{self, Loaded};
+use crate::load::{self, LoadError, Loaded};
 use crate::report::near_miss_table;
 use crate::sweep::Plan;
 use crate::trial::{ExecuteError, Trial, in_parallel};
@@ -43,7 +43,7 @@ pub(super) struct NearMissArguments {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     /// Write the list, and a picture of every run in it, into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -142,32 +142,38 @@ fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Resu
     let source = loaded.text.as_ref().map(|text| &text.source);
     let policy = explained(source, &loaded.artifact.program.name)?;
     let program = Arc::new(policy.explained.with_parameters_of(&loaded.artifact.program));
-    let mismatch = arguments.mismatch.load(files)?;
+    let mismatch = arguments.array.load(files)?;
     let mut trials = Vec::new();
     for (path, Loaded { value: mut scene, hash: mut scenario_hash }) in scenes(&arguments.scenarios, files)? {
         mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
         let world = arguments.world.of(&scene);
         let inputs = inputs(&path, &scenario_hash.finalize(), &hash.clone().finalize());
         let name = scene.name.clone();
-        trials.push((name, Trial { world, inputs, ..Trial::new(scene, Arc::clone(&program)) }));
+        let trial = Trial { world, inputs, ..Trial::new(scene, Arc::clone(&program)) };
+        trials.push((name, calibrated(&trial, &mismatch)?));
     }
+    mismatch.check_seed(trials.iter().map(|(_, trial)| &trial.scene)).map_err(LoadError::from)?;
+    say_calibrations(trials.iter().map(|(_, trial)| trial));
     Ok(PolicyRuns { policy, trials })
 }
 
 /// The runs of a sweep, by policy.
 fn of_sweep(path: &Path, arguments: &NearMissArguments, files: &mut CommandFiles) -> Result<Vec<PolicyRuns>, Failure> {
-    let plan = Plan::read(path, true, arguments.mismatch.load(files)?, files)?;
+    let plan = Plan::read(path, true, arguments.array.load(files)?, files)?;
     plan.check(|note| output::message(format_args!("{note}")))?;
     let mut all = Vec::new();
     for (index, loaded) in plan.analysed_policies(files)?.into_iter().enumerate() {
         let source = loaded.text.as_ref().map(|text| &text.source);
         let policy = explained(source, &loaded.artifact.program.name)?;
         let mut trials = Vec::new();
-        for run in plan.sweep.runs().filter(|run| run.policy == index) {
-            let trial = plan.trial(&run)?;
+        let runs: Vec<_> = plan.sweep.runs().filter(|run| run.policy == index).collect();
+        let of_runs = in_parallel(&runs, arguments.jobs.threads(), |run| plan.trial(run), |_| ());
+        for (run, trial) in runs.iter().zip(of_runs) {
+            let trial = trial?;
             let program = Arc::new(policy.explained.with_parameters_of(&trial.program));
             trials.push((file_name(&run.key()), Trial { program, ..trial }));
         }
+        say_calibrations(trials.iter().map(|(_, trial)| trial));
         all.push(PolicyRuns { policy, trials });
     }
     Ok(all)

@@ -147,10 +147,32 @@ impl MismatchOptions {
     }
 
     /// The arguments that give another process the same mismatch.
-    pub(super) fn arguments(&self) -> impl Iterator<Item = OsString> {
+    fn arguments(&self) -> impl Iterator<Item = OsString> {
         let file = self.mismatch_file.iter().flat_map(|file| ["--mismatch".into(), file.clone().into()]);
         let seed = self.mismatch_seed.iter().flat_map(|seed| ["--mismatch-seed".into(), seed.to_string().into()]);
         file.chain(seed)
+    }
+}
+
+/// The array that is simulated, and whether it is calibrated before the runs.
+#[derive(Debug, Args)]
+pub(super) struct ArrayOptions {
+    #[command(flatten)]
+    mismatch: MismatchOptions,
+    /// Let control assume the rig of the scene. By default, an array with a mismatch first calibrates itself by touches of a pin
+    #[arg(long)]
+    uncalibrated: bool,
+}
+
+impl ArrayOptions {
+    /// Reads the mismatch.
+    pub(super) fn load(&self, files: &mut CommandFiles) -> Result<GivenMismatch, LoadError> {
+        Ok(self.mismatch.load(files)?.uncalibrated(self.uncalibrated))
+    }
+
+    /// The arguments that give another process the same arrays.
+    pub(super) fn arguments(&self) -> impl Iterator<Item = OsString> {
+        self.mismatch.arguments().chain(self.uncalibrated.then(|| "--uncalibrated".into()))
     }
 }
 

@@ -9,7 +9,7 @@ use vibrissa_runtime::rig::Rig;
 
 use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
 use crate::report::Table;
-use crate::results::Document;
+use crate::results::{CalibrationIdentity, Document};
 
 use super::failure::Failure;
 use super::options::Format;
@@ -101,6 +101,25 @@ pub(super) fn warn_of_rates(scenario: &Path, rig: &Rig, program: &Program) {
         message(format_args!("warning: {}: {unmet}; results may differ", scenario.display()));
     }
 }
+
+/// Says which calibrations the arrays of some runs have, each once.
+pub(super) fn calibrations<'c>(calibrations: impl Iterator<Item = &'c CalibrationIdentity>) {
+    let mut different: Vec<&CalibrationIdentity> = Vec::new();
+    for calibration in calibrations {
+        if !different.contains(&calibration) {
+            different.push(calibration);
+        }
+    }
+    if different.len() <= CALIBRATIONS_SHOWN {
+        different.iter().for_each(|calibration| message(format_args!("the array is {calibration}")));
+    } else {
+        let cached = different.iter().filter(|calibration| calibration.cached).count();
+        message(format_args!("the runs have {} calibrations, {cached} of them cached", different.len()));
+    }
+}
+
+/// Number of different calibrations that are printed one by one.
+const CALIBRATIONS_SHOWN: usize = 3;
 
 /// Prints the warnings of a policy, and says if only a simulator can run it.
 pub(super) fn warnings(policy: &Policy) {

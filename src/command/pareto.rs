@@ -8,14 +8,14 @@ use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, MismatchOptions, Policies};
+use super::options::{ArrayOptions, Format, Policies};
 use super::output;
 use super::progress::Progress;
 use super::trials::{extended, make_directory};
 use super::values::parse_repeats;
 use crate::built_in::SCENARIOS;
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, Loaded};
+use crate::load::{self, LoadError, Loaded};
 use crate::report::{pareto_page, pareto_picture, pareto_table};
 use crate::results::{Document, Ending};
 use crate::study::pareto::{Pareto, Setting, measure};
@@ -33,7 +33,7 @@ pub(super) struct ParetoArguments {
     #[command(flatten)]
     policies: Policies,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     /// Number of runs of every setting without a mismatch, from 1 to 1000. Run times are medians
     #[arg(long, value_name = "N", default_value = "3", allow_negative_numbers = true, value_parser = parse_repeats)]
     repeats: usize,
@@ -50,15 +50,19 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         Some(path) => (path.clone(), load::scenario(path, &mut files)?),
         None => (SCENARIOS[0].path.into(), load::built_in_scenario(&SCENARIOS[0])?),
     };
-    let given = arguments.mismatch.load(&mut files)?;
+    let given = arguments.array.load(&mut files)?;
     let given = if scene.mismatch.is_none() { given.or_plausible()? } else { given };
     given.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(&path))?;
-    let mismatch = scene.mismatch.take().unwrap_or_default();
+    given.check_seed(std::iter::once(&scene)).map_err(LoadError::from)?;
     let policies = arguments.policies.load(&mut files)?;
     let programs: Vec<_> = policies.into_iter().map(|policy| Arc::new(policy.value.artifact.program)).collect();
     let world = scene.world.unwrap_or_default();
     let failed = |cause| Failure::Execute { scenario: path.clone(), cause };
     check_world(world).map_err(failed)?;
+    // The array is calibrated once, in the scene as it is. So its calibration does not compensate for the errors of a setting.
+    let mut wrong = scene.clone();
+    scene.mismatch = None;
+    given.calibrate_scene(&mut wrong, world.into()).map_err(Failure::calibration(&path))?;
     make_directory(arguments.out.as_deref())?;
     let report = |program: &Arc<Program>| {
         let stem = |directory: &PathBuf| directory.join(format!("{}-{}-pareto", scene.name, program.name));
@@ -71,7 +75,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     let mut progress = Progress::new(programs.len() * settings.len() * (repeats + 1));
     let mut measured = Vec::with_capacity(programs.len());
     for program in &programs {
-        let pareto = measure(&scene, &mismatch, program, world, &settings, repeats, |setting| progress.done(setting));
+        let pareto = measure(&scene, &wrong, program, world, &settings, repeats, |setting| progress.done(setting));
         measured.push(pareto.map_err(failed)?);
     }
     progress.finish();
@@ -82,6 +86,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         }
         report.map(|report| report.write(pareto)).transpose()?;
     }
+    output::calibrations(measured.iter().filter_map(|pareto| pareto.calibration.as_ref()));
     output::documents(arguments.format, &measured, || measured.iter().map(pareto_table).collect::<Vec<_>>())?;
     if let Some(page) = page {
         let path = page.path().display().to_string();

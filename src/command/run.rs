@@ -12,17 +12,18 @@ use super::failure::Failure;
 use super::inspect::{InspectionOptions, inspect};
 #[cfg(feature = "live")]
 use super::live::LivePage;
-use super::options::{Format, MismatchOptions, Settings, WorldOptions};
+use super::options::{ArrayOptions, Format, Settings, WorldOptions};
 use super::output;
 use super::reports::Reports;
 use super::run_outputs::RunOutputs;
 #[cfg(any(feature = "render", feature = "viewer"))]
 use super::run_outputs::VideoOptions;
+use super::trials::{calibrated, say_calibrations};
 use super::values::parse_seed;
 use super::watch::watch;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
-use crate::load::GivenMismatch;
+use crate::load::{GivenMismatch, LoadError, check_noise_seed};
 use crate::request::{Input, PolicyInput, TrialRequest};
 use crate::results::tick_lines;
 use crate::run::Run;
@@ -45,8 +46,8 @@ pub(super) struct RunArguments {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
-    mismatch: MismatchOptions,
-    /// Seed of the sensor noise. Overrides the seed of the scenario, and has no effect without noise
+    array: ArrayOptions,
+    /// Seed of the sensor noise. Overrides the seed of the scenario. Refused if no run has noise
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
     seed: Option<u64>,
     /// Write pictures and the result of every run into this directory, and a page that shows all runs
@@ -155,9 +156,9 @@ impl TickFile {
 /// before the first trial runs.
 pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Vec<Prepared>, Failure> {
     let mut warned = BTreeSet::new();
-    let mismatch = arguments.mismatch.load(files)?;
+    let mismatch = arguments.array.load(files)?;
     let trials = arguments.scenarios.iter().map(|path| trial(path, arguments, &mismatch, files, &mut warned));
-    let trials = trials.collect::<Result<Vec<_>, _>>()?;
+    let mut trials = trials.collect::<Result<Vec<_>, _>>()?;
     // Reports are named after scenarios.
     for (index, Prepared { trial, .. }) in trials.iter().enumerate() {
         let mut before = trials[..index].iter().map(|before| &before.trial);
@@ -166,6 +167,12 @@ pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles
             return Err(Failure::SameName { first, second, name: trial.scene.name.clone() });
         }
     }
+    mismatch.check_seed(trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
+    check_noise_seed(arguments.seed, trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
+    for Prepared { trial, .. } in &mut trials {
+        *trial = calibrated(trial, &mismatch)?;
+    }
+    say_calibrations(trials.iter().map(|prepared| &prepared.trial));
     Ok(trials)
 }
 

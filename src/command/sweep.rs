@@ -1,5 +1,6 @@
 //! `vibrissa sweep`
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,13 +9,15 @@ use clap::{Args, ValueEnum};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, MismatchOptions, PruneOption};
+use super::options::{ArrayOptions, Format, Jobs, PruneOption};
 use super::output;
 use super::progress::{Kept, Progress};
 use super::trials::make_directory;
 use crate::file::{CommandFiles, Output};
 use crate::report::{summary_table, sweep_page};
-use crate::sweep::{Plan, Results, RunRow, Shard, Sweep, SweepLine, SweepSummary, read_line, run_rows};
+use crate::sweep::{
+    Plan, Results, RunRow, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line, run_rows,
+};
 use crate::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
 
 const EXAMPLE: &str = "Example:\n  vibrissa sweep sweeps/corners.yaml --out out/corners\n\nExit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -58,7 +61,7 @@ pub(super) struct SweepArguments {
     #[command(flatten)]
     prune: PruneOption,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     /// Run only the K-th of N parts. The part of a run depends only on its key
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     shard: Shard,
@@ -76,7 +79,7 @@ pub(super) struct SweepArguments {
 
 pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let mismatch = arguments.mismatch.load(&mut files)?;
+    let mismatch = arguments.array.load(&mut files)?;
     let plan = Plan::read(&arguments.file, !arguments.prune.no_prune, mismatch, &mut files)?;
     plan.analysed_policies(&mut files)?.iter().for_each(output::warnings);
     plan.check(output::message)?;
@@ -98,7 +101,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let mut progress = Progress::resumed(resumed as u64, left.len() as u64, Kept::In(path.clone()));
     let fingerprint = header.fingerprint();
     let start = || worker(arguments, &pictures, &fingerprint);
-    let mut failure = None;
+    let (mut failure, mut calibrations) = (None, BTreeSet::new());
     stream_in_parallel(
         &left,
         arguments.jobs.threads(),
@@ -109,6 +112,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
             let added = line(sweep, index, answer).and_then(|line| {
                 let (key, figures) = read_line(&line).map_err(Failure::Answer)?;
                 results.add(&line)?;
+                calibrations.extend(read_calibration(&line));
                 done.insert(index, figures);
                 progress.done(key);
                 Ok(())
@@ -121,6 +125,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     if let Some(failure) = failure {
         return Err(failure);
     }
+    output::calibrations(calibrations.iter());
     let summary = SweepSummary::new(sweep, &done, resumed);
     print_summary(&summary, &path, arguments.format)?;
     // The page of a part would show a part of the sweep. `merge` writes that of the whole.
@@ -137,7 +142,7 @@ fn worker(arguments: &SweepArguments, pictures: &Path, fingerprint: &str) -> Res
     if arguments.prune.no_prune {
         command.arg("--no-prune");
     }
-    command.args(arguments.mismatch.arguments());
+    command.args(arguments.array.arguments());
     if arguments.pictures != Pictures::None {
         command.arg("--folder").arg(pictures).arg("--pictures").arg(arguments.pictures.name());
     }

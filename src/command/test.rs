@@ -10,11 +10,11 @@ use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Jobs, MismatchOptions, WorldOption};
+use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
-use super::trials::{self, ReportFiles, inputs, make_directory, run_with_bar};
+use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar, say_calibrations};
 use crate::diagnostic::{Diagnostic, Record, Source, Span, records};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, with_settings};
@@ -38,7 +38,7 @@ pub(super) struct TestArguments {
     #[command(flatten)]
     world: WorldOption,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     #[command(flatten)]
     search: SearchOptions,
     /// Write a picture and the result of every test's run into this directory, and of a property that fails also the scenario
@@ -90,12 +90,20 @@ impl Runs<'_> {
             Self::Property(property) => property.title(),
         }
     }
+
+    /// The trial of a test.
+    fn trial(&self) -> Option<&Trial> {
+        match self {
+            Self::Test(_, trial) => Some(trial),
+            Self::Property(_) => None,
+        }
+    }
 }
 
 pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     // An error in the last policy or scenario is reported before the first run.
     let mut files = CommandFiles::new();
-    let mismatch = arguments.mismatch.load(&mut files)?;
+    let mismatch = arguments.array.load(&mut files)?;
     let prepared = arguments.policies.iter().map(|path| prepare(path, arguments, &mismatch, &mut files));
     let mut prepared = prepared.collect::<Result<Vec<_>, Failure>>()?;
     let tests = || prepared.iter().flat_map(|policy| &policy.tests);
@@ -103,6 +111,9 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     if let (0, Some(filter)) = (count, &arguments.filter) {
         return Err(Failure::NoSuchTest { filter: filter.clone() });
     }
+    let trials = || tests().filter_map(Runs::trial);
+    mismatch.check_seed(trials().map(|trial| &trial.scene)).map_err(LoadError::from)?;
+    say_calibrations(trials());
     make_directory(arguments.out.as_deref())?;
     let reports = (1..).zip(tests()).map(|(number, runs)| {
         let stem = arguments.out.as_ref().map(|directory| directory.join(file_name(number, runs.title())));
@@ -144,7 +155,7 @@ fn prepare<'a>(
     mismatch: &'a GivenMismatch,
     files: &mut CommandFiles,
 ) -> Result<Prepared<'a>, Failure> {
-    let simulated = Simulated { world: &arguments.world, mismatch, options: &arguments.mismatch };
+    let simulated = Simulated { world: &arguments.world, mismatch, options: &arguments.array };
     let Loaded { value: Policy { artifact, text }, hash } = load::tested_policy(path, files)?;
     let text = text.ok_or_else(|| Failure::NoText { policy: path.to_owned() })?;
     output::diagnostics(&text.source, &text.warnings);
@@ -272,7 +283,8 @@ fn trial_of(
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
     let inputs = inputs(&path, &hash.finalize(), &policy_hash.finalize());
-    Ok(Trial { world: simulated.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
+    let trial = Trial { world: simulated.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) };
+    calibrated(&trial, simulated.mismatch)
 }
 
 /// Prints whether a test has passed. The outcome of a passed run was expected, even if it is a failure, and is not

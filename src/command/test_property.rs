@@ -12,10 +12,10 @@ use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::Dimension;
 
 use super::failure::Failure;
-use super::options::{Jobs, MismatchOptions, WorldOption};
+use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
-use super::trials::{inputs, report_events};
+use super::trials::{calibrated, inputs, report_events, say_calibrations};
 use super::values::{parse_cases, parse_seed};
 use crate::catalogue::Entry;
 use crate::catalogue::common::SPEED;
@@ -49,7 +49,7 @@ pub(super) struct Simulated<'a> {
     /// The mismatch of the array. All cases of a property have the same array, so that only the scene distinguishes them.
     pub(super) mismatch: &'a GivenMismatch,
     /// The options that gave the mismatch.
-    pub(super) options: &'a MismatchOptions,
+    pub(super) options: &'a ArrayOptions,
 }
 
 /// A property of a policy that is ready to run.
@@ -230,7 +230,8 @@ impl<'a> Property<'a> {
         program.set(SPEED.name, speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
         let policy_hash = with_settings(self.policy_hash.clone(), [(SPEED.name, speed)].into_iter()).finalize();
         let inputs = inputs(&path, &scenario_hash.finalize(), &policy_hash);
-        Ok(Trial { world: world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
+        let trial = Trial { world: world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) };
+        calibrated(&trial, mismatch)
     }
 
     /// Runs a case that fails once more, for its report.
@@ -253,6 +254,7 @@ impl<'a> Property<'a> {
         let finished = trial.run().map_err(Failure::execute(&trial))?;
         let faults = violations(&self.test, &trial.program, &finished);
         let result = trial.document(&finished);
+        say_calibrations(std::iter::once(&trial));
         Ok(Failing { case, is_new, scenario, trial, finished, result, faults })
     }
 }

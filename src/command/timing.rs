@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::options::Format;
 use super::output;
 use super::progress::Progress;
+use super::trials::{calibrated, say_calibrations};
 use super::values::parse_repeats;
 use crate::file::CommandFiles;
 use crate::report::timing_table;
@@ -31,7 +32,11 @@ pub(super) struct TimingArguments {
 
 /// Runs every trial several times, one at a time. Each round has every trial once, so that disturbances of the machine affect all of them.
 pub(super) fn timing(arguments: &TimingArguments) -> Result<Exit, Failure> {
-    let trials = bench_trials(&arguments.trials, &mut CommandFiles::new())?;
+    let (mut trials, array) = bench_trials(&arguments.trials, &mut CommandFiles::new())?;
+    for (_, trial) in &mut trials {
+        *trial = calibrated(trial, &array)?;
+    }
+    say_calibrations(trials.iter().map(|(_, trial)| trial));
     let mut progress = Progress::new(trials.len() * arguments.repeats);
     let mut times: Vec<Vec<Timing>> = vec![Vec::with_capacity(arguments.repeats); trials.len()];
     for _ in 0..arguments.repeats {

@@ -13,11 +13,12 @@ use super::output;
 use super::progress::Progress;
 use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
+use crate::load::GivenMismatch;
 use crate::report::{RunFigures, retrieval_picture};
 use crate::results::{Collisions, Document, Failsafes, Inclination, RunResult};
 use crate::run::{Trace, Watcher};
-use crate::scene::Violation;
-use crate::trial::{Inputs, Trial, TrialResult, in_parallel, short_hash};
+use crate::scene::{Outcome, Violation};
+use crate::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
 use crate::world::World;
 
 /// The kept part of a trial's result. A trace is large.
@@ -29,15 +30,18 @@ pub(super) struct Finished {
     pub(super) figures: Option<RunFigures>,
 }
 
-/// Runs all trials in parallel and returns their results in order. A trial has figures if `is_drawn` is true for its
-/// violations. Standard error shows the progress.
+/// Calibrates the array of each trial and runs it, in parallel. Returns the results in order. A trial has figures if
+/// `is_drawn` is true for its violations. Standard error shows the progress, and the calibrations of the runs.
+///
+/// A trial that cannot begin has a result that says so, unless no trial can.
 pub(super) fn run_all(
     trials: &[Trial],
+    array: &GivenMismatch,
     jobs: Jobs,
     is_drawn: impl Fn(&[Violation]) -> bool + Sync,
 ) -> Result<Vec<Finished>, Failure> {
     let mut progress = Progress::new(trials.len());
-    let run = |trial: &Trial| finished(trial, &is_drawn);
+    let run = |trial: &Trial| finished(&calibrated(trial, array)?, &is_drawn);
     let done = |finished: &Result<Finished, Failure>| {
         if let Ok(Finished { result, .. }) = finished {
             progress.done(format_args!("{}: {}", result.scenario, result.outcome));
@@ -45,7 +49,40 @@ pub(super) fn run_all(
     };
     let finished = in_parallel(trials, jobs.threads(), run, done);
     progress.finish();
-    finished.into_iter().collect()
+    if finished.iter().all(Result::is_err) {
+        return finished.into_iter().collect();
+    }
+    let finished =
+        finished.into_iter().zip(trials).map(|(finished, trial)| finished.or_else(|cause| refused(trial, cause)));
+    let finished = finished.collect::<Result<Vec<_>, _>>()?;
+    output::calibrations(finished.iter().filter_map(|finished| finished.result.calibration.as_ref()));
+    Ok(finished)
+}
+
+/// The trial whose control knows the calibration of its array.
+pub(super) fn calibrated(trial: &Trial, array: &GivenMismatch) -> Result<Trial, Failure> {
+    let mut trial = trial.clone();
+    array.calibrate(&mut trial).map_err(Failure::calibration(&trial.inputs.scenario))?;
+    Ok(trial)
+}
+
+/// Says which calibrations the arrays of trials have.
+pub(super) fn say_calibrations<'t>(trials: impl Iterator<Item = &'t Trial>) {
+    let calibrations: Vec<_> = trials.filter_map(Trial::calibration).collect();
+    output::calibrations(calibrations.iter());
+}
+
+/// The result of a trial that cannot begin. Other failures concern all trials, such as a missing simulator.
+fn refused(trial: &Trial, failure: Failure) -> Result<Finished, Failure> {
+    let reason = match &failure {
+        Failure::Execute { cause: ExecuteError::Interrupted, .. } => return Err(failure),
+        Failure::Execute { cause, .. } if check_world(trial.world.kind).is_ok() => cause.to_string(),
+        Failure::Calibration { cause, .. } if check_world(trial.world.kind).is_ok() => cause.to_string(),
+        _ => return Err(failure),
+    };
+    let result = trial.refused(reason);
+    let violation = Violation::Outcome { expected: Outcome::Completed, found: result.outcome };
+    Ok(Finished { result, violations: vec![violation], figures: None })
 }
 
 /// Runs one trial.

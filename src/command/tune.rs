@@ -9,7 +9,7 @@ use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{Format, Jobs, Settings, WorldOptions};
+use super::options::{ArrayOptions, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::trials::make_directory;
 use super::tune_runs::{TuningRuns, TuningWork};
@@ -60,6 +60,8 @@ pub(super) struct TuneArguments {
     #[command(flatten)]
     world: WorldOptions,
     #[command(flatten)]
+    array: ArrayOptions,
+    #[command(flatten)]
     jobs: Jobs,
     /// Directory of the results. The default is out/tune-NAME. Runs whose results are already in it are skipped
     #[arg(short, long, value_name = "DIR")]
@@ -85,8 +87,13 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
     if let Some(twice) = held_out.iter().find(|scene| training.iter().any(|one| one.name == scene.name)) {
         return Err(Failure::NotHeldOut { scene: twice.name.clone() });
     }
+    let array = arguments.array.load(&mut files)?;
+    array
+        .check_seed(training.iter().chain(&held_out).filter_map(TuningScene::of_scenario))
+        .map_err(load::LoadError::from)?;
     let objective = Objective::new(&arguments.weights);
-    let header = header(short_hash(&policy.hash.finalize()), &axes, [&training, &held_out], &objective, arguments);
+    let mut header = header(short_hash(&policy.hash.finalize()), &axes, [&training, &held_out], &objective, arguments);
+    header.inputs.extend(array.inputs());
     let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(format!("tune-{}", program.name)));
     make_directory(Some(&directory))?;
     let path = directory.join("results.jsonl");
@@ -102,6 +109,7 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
         objective: &objective,
         speed: arguments.settings.has("speed").then(|| value(&program, "speed")).flatten(),
         world: &arguments.world,
+        array: &array,
         jobs: &arguments.jobs,
     };
     let mut runs = TuningRuns::open(path, &header, work)?;

@@ -2,14 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use sha2::Sha256;
 use vibrissa_runtime::machine::Program;
 
 use super::failure::Failure;
 use super::options::{Jobs, WorldOptions};
 use super::output;
 use super::progress::{Kept, Progress};
+use super::trials::calibrated;
+use crate::load::GivenMismatch;
 use crate::sweep::Results;
 use crate::trial::stream_in_parallel;
 use crate::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
@@ -27,13 +30,20 @@ pub(super) struct TuningWork<'a> {
     pub(super) speed: Option<f64>,
     /// The world.
     pub(super) world: &'a WorldOptions,
+    /// The array.
+    pub(super) array: &'a GivenMismatch,
     /// The threads.
     pub(super) jobs: &'a Jobs,
 }
 
 impl TuningWork<'_> {
     fn run(&self, candidate: &Candidate, scene: &TuningScene) -> Result<TunedRun, Failure> {
-        let trial = scene.trial(candidate, self.axes, self.program, self.speed, |scene| self.world.of(scene))?;
+        let mut trial = scene.trial(candidate, self.axes, self.program, self.speed, |scene| self.world.of(scene))?;
+        let name = Path::new(&scene.name);
+        let applied = self.array.apply(&mut trial.scene, &mut Sha256::default(), scene.number());
+        applied.map_err(Failure::mismatch(name))?;
+        trial.assumed_rig = trial.scene.assumed_rig();
+        let trial = calibrated(&trial, self.array)?;
         let result = trial.run().map_err(|cause| Failure::Execute { scenario: scene.name.clone().into(), cause })?;
         Ok(TunedRun::new(self.objective, &result))
     }

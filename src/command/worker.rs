@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::options::{MismatchOptions, PruneOption};
+use super::options::{ArrayOptions, PruneOption};
 use super::output;
 use super::sweep::Pictures;
 use super::trials::finished;
@@ -30,7 +30,7 @@ pub(super) struct WorkerArguments {
     #[command(flatten)]
     prune: PruneOption,
     #[command(flatten)]
-    mismatch: MismatchOptions,
+    array: ArrayOptions,
     /// The folder of the pictures of runs
     #[arg(long, value_name = "DIR", requires = "pictures")]
     folder: Option<PathBuf>,
@@ -50,7 +50,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
         });
     };
     let mut files = CommandFiles::new();
-    let mismatch = arguments.mismatch.load(&mut files)?;
+    let mismatch = arguments.array.load(&mut files)?;
     let plan = Plan::read(file, !arguments.prune.no_prune, mismatch, &mut files)?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
         plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run, arguments).versioned()))

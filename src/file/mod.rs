@@ -3,6 +3,7 @@
 //! No other code opens a file. `clippy.toml` forbids it.
 #![expect(clippy::disallowed_methods, reason = "this module opens all files")]
 
+mod cache;
 mod command_files;
 mod identity;
 mod output;
@@ -10,6 +11,7 @@ mod regular;
 mod replace;
 mod special;
 
+pub(crate) use cache::{Cache, hex};
 pub(crate) use command_files::CommandFiles;
 pub(crate) use identity::is_at;
 pub(crate) use output::{Output, OutputError};

@@ -35,7 +35,6 @@ pub(crate) fn append(path: &Path) -> Result<File> {
 ///
 /// # Errors
 /// Those of [`open`], or the file cannot be read.
-#[cfg(feature = "lsp")]
 pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>> {
     read_at_most(open(path)?, limit)
 }

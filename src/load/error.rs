@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, Source};
 use crate::scenario::unreadable;
 use crate::scene::FileReference;
 
+use super::seed::SeedWithoutEffect;
 use super::text::reason;
 
 /// The error of a file that cannot be used.
@@ -70,6 +71,9 @@ pub(crate) enum LoadError {
         /// The cause.
         cause: SetsError,
     },
+    /// A seed has no effect.
+    #[error(transparent)]
+    Seed(#[from] SeedWithoutEffect),
     /// The file is no recording that can be used.
     #[error("{}: {cause}", path.display())]
     Recording {

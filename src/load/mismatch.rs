@@ -4,34 +4,47 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+use super::seed::{SeedWithoutEffect, check_mismatch_seed};
 use super::text::read;
 use super::{LoadError, Loaded};
 use crate::built_in::PLAUSIBLE_MISMATCH;
+use crate::calibration::{ArrayCalibrationError, ArrayCalibrations};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
 use crate::mismatch::{Mismatch, MismatchError};
 use crate::scenario::read_mismatch;
-use crate::scene::Scene;
+use crate::scene::{Scene, WorldSetup};
+use crate::trial::{Trial, short_hash};
 
-/// The mismatch that a command line adds to scenes.
-#[derive(Default)]
+/// The array of the runs of a command: the mismatch that is added to scenes, and the calibration of the true array.
 pub(crate) struct GivenMismatch {
     /// The file.
     file: Option<Loaded<Mismatch>>,
     /// The seed of drawn values.
     seed: Option<u64>,
+    /// The calibrations of true arrays. `None` if control assumes the rigs of the scenes.
+    calibrations: Option<ArrayCalibrations>,
 }
 
 impl GivenMismatch {
     /// Reads the file at `path`. `seed` replaces the seeds of files and scenarios.
     pub(crate) fn read(path: Option<&Path>, seed: Option<u64>, files: &mut CommandFiles) -> Result<Self, LoadError> {
-        let file = path.map(|path| mismatch(path, files)).transpose()?;
-        Ok(Self { file, seed })
+        Ok(Self::new(path.map(|path| mismatch(path, files)).transpose()?, seed))
     }
 
     /// The mismatch of a text.
     pub(crate) fn of_text(source: Source, seed: Option<u64>) -> Result<Self, LoadError> {
-        Ok(Self { file: Some(mismatch_in(source)?), seed })
+        Ok(Self::new(Some(mismatch_in(source)?), seed))
+    }
+
+    fn new(file: Option<Loaded<Mismatch>>, seed: Option<u64>) -> Self {
+        Self { file, seed, calibrations: Some(ArrayCalibrations::of_user()) }
+    }
+
+    /// The same without calibrations if `uncalibrated`.
+    #[must_use]
+    pub(crate) fn uncalibrated(self, uncalibrated: bool) -> Self {
+        Self { calibrations: self.calibrations.filter(|_| !uncalibrated), ..self }
     }
 
     /// The same, with the built-in plausible array if no file is given.
@@ -40,18 +53,52 @@ impl GivenMismatch {
         Ok(Self { file: Some(self.file.map_or_else(built_in, Ok)?), ..self })
     }
 
-    /// The hash of the file.
-    pub(crate) fn hash(&self) -> Option<Sha256> {
-        self.file.as_ref().map(|file| file.hash.clone())
+    /// What the results of runs depend on, with names.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (String, String)> {
+        let file = self.file.as_ref().map(|file| ("the mismatch", short_hash(&file.hash.clone().finalize())));
+        let seed = self.seed.map(|seed| ("the seed of the mismatch", seed.to_string()));
+        let calibration = if self.is_calibrated() { "by their own touches" } else { "none" };
+        let inputs = file.into_iter().chain(seed).chain([("the calibration of arrays", calibration.to_owned())]);
+        inputs.map(|(name, value)| (name.to_owned(), value))
     }
 
-    /// The seed that replaces those of files and scenarios.
-    pub(crate) fn seed(&self) -> Option<u64> {
-        self.seed
+    /// Checks that the seed of the mismatch, if one is given, changes the array of one of these scenes. A mismatch with ranges
+    /// is enough, so scenes that are drawn later need not be given.
+    ///
+    /// # Errors
+    /// [`SeedWithoutEffect`] if it does not.
+    pub(crate) fn check_seed<'s>(&self, scenes: impl Iterator<Item = &'s Scene>) -> Result<(), SeedWithoutEffect> {
+        check_mismatch_seed(self.seed, self.file.as_ref().map(|file| &file.value), scenes)
+    }
+
+    /// True if true arrays are calibrated.
+    pub(crate) fn is_calibrated(&self) -> bool {
+        self.calibrations.is_some()
+    }
+
+    /// Gives control the calibration of the true array of a trial, if the array differs from the rig of the scene.
+    ///
+    /// # Errors
+    /// [`ArrayCalibrationError`] if the array cannot be calibrated.
+    pub(crate) fn calibrate(&self, trial: &mut Trial) -> Result<(), ArrayCalibrationError> {
+        if ArrayCalibrations::concern(&trial.scene) {
+            self.calibrate_scene(&mut trial.scene, trial.world)?;
+            trial.assumed_rig = trial.scene.assumed_rig();
+        }
+        Ok(())
+    }
+
+    /// Gives the rig of a scene the calibration of its true array in a world.
+    ///
+    /// # Errors
+    /// [`ArrayCalibrationError`] if the array cannot be calibrated.
+    pub(crate) fn calibrate_scene(&self, scene: &mut Scene, world: WorldSetup) -> Result<(), ArrayCalibrationError> {
+        self.calibrations.as_ref().map_or(Ok(()), |calibrations| calibrations.calibrate(scene, world))
     }
 
     /// Adds the mismatch to the `scene` of the run with this `number`, and to its `hash`. The array of each run has the
-    /// sum of seed and number as its seed. A key of the scenario precedes the same key of the file.
+    /// sum of seed and number as its seed. A key of the scenario precedes the same key of the file. The array is not yet
+    /// [calibrated](Self::calibrate).
     ///
     /// # Errors
     /// [`MismatchError`] if the mismatch does not fit to the rig.
@@ -73,6 +120,9 @@ impl GivenMismatch {
         mismatch.seed = Some(seed);
         mismatch.check(&scene.rig)?;
         scene.mismatch = Some(mismatch);
+        if self.is_calibrated() && ArrayCalibrations::concern(scene) {
+            hash.update("\0calibrated");
+        }
         Ok(())
     }
 }

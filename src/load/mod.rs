@@ -5,6 +5,7 @@ mod mismatch;
 mod policy;
 mod recording;
 mod scenario;
+mod seed;
 mod text;
 
 pub(crate) use error::LoadError;
@@ -19,6 +20,7 @@ pub(crate) use recording::recording;
 pub(crate) use scenario::{
     beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in, touches,
 };
+pub(crate) use seed::check_noise_seed;
 pub(crate) use text::{read, read_standard};
 
 use sha2::Sha256;

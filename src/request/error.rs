@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use vibrissa_runtime::machine::{ArtifactError, SetError};
 
+use crate::calibration::ArrayCalibrationError;
 use crate::diagnostic::{Colour, terminal};
 use crate::load::LoadError;
 use crate::mismatch::MismatchError;
@@ -21,6 +22,7 @@ pub(crate) enum RequestFault {
     Load(LoadError),
     Machine(ArtifactError),
     Mismatch { scenario: PathBuf, cause: MismatchError },
+    Calibration { scenario: PathBuf, cause: ArrayCalibrationError },
     Set(SetError),
 }
 
@@ -64,6 +66,9 @@ impl fmt::Display for RequestError {
             RequestFault::Load(error) => error.fmt(f),
             RequestFault::Machine(error) => error.fmt(f),
             RequestFault::Mismatch { scenario, cause } => write!(f, "{}: mismatch: {cause}", scenario.display()),
+            RequestFault::Calibration { scenario, cause } => {
+                write!(f, "{}: the array cannot be calibrated: {cause}", scenario.display())
+            }
             RequestFault::Set(error) => error.fmt(f),
         }
     }

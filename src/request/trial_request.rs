@@ -40,12 +40,16 @@ pub struct TrialRequest {
     pub mismatch: Option<Input>,
     /// Seed of the values that a mismatch draws from ranges.
     pub mismatch_seed: Option<u64>,
+    /// True if control assumes the rig of the scene. Otherwise an array with a mismatch first calibrates itself by touches of a pin.
+    pub uncalibrated: bool,
     /// The simulator. `None` for that of the scenario, or else the default.
     pub world: Option<WorldKind>,
     /// True if the simulator omits parts of the scene without effect.
     pub prune: bool,
     /// Seed of the sensor noise. `None` for that of the scenario.
     pub seed: Option<u64>,
+    /// True if a seed that has no effect is no error.
+    pub unused_seeds: bool,
 }
 
 /// A trial that is ready to run.
@@ -78,13 +82,15 @@ impl TrialRequest {
             settings: Vec::new(),
             mismatch: None,
             mismatch_seed: None,
+            uncalibrated: false,
             world: None,
             prune: true,
             seed: None,
+            unused_seeds: false,
         }
     }
 
-    /// Reads all files and compiles the policy.
+    /// Reads all files, compiles the policy and calibrates the array.
     ///
     /// # Errors
     /// [`RequestError`] if a file, a text or an option cannot be used.
@@ -98,11 +104,21 @@ impl TrialRequest {
                 GivenMismatch::of_text(Source::new(file.path, file.text), self.mismatch_seed)?
             }
         };
-        let (trial, policy) = self.prepare_in(&mismatch, &mut files, |_| ())?;
+        let mismatch = mismatch.uncalibrated(self.uncalibrated);
+        let (mut trial, policy) = self.prepare_in(&mismatch, &mut files, |_| ())?;
+        if !self.unused_seeds {
+            let scene = || std::iter::once(&trial.scene);
+            mismatch.check_seed(scene()).map_err(LoadError::from)?;
+            load::check_noise_seed(self.seed, scene()).map_err(LoadError::from)?;
+        }
+        if let Err(cause) = mismatch.calibrate(&mut trial) {
+            return Err(RequestFault::Calibration { scenario: trial.inputs.scenario, cause }.into());
+        }
         Ok(PreparedTrial { trial, policy: policy.into() })
     }
 
-    /// The trial under a mismatch that has been read, and its policy. `compiled` receives the policy before its parameters are set.
+    /// The trial under a mismatch that has been read, and its policy. Its array is not yet calibrated. `compiled` receives the
+    /// policy before its parameters are set.
     pub(crate) fn prepare_in(
         &self,
         mismatch: &GivenMismatch,
@@ -214,10 +230,27 @@ impl From<Policy> for PreparedPolicy {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::built_in::{PLAUSIBLE_MISMATCH, SCENARIOS};
+    use crate::built_in::SCENARIOS;
 
     fn request() -> TrialRequest {
         TrialRequest { world: Some(WorldKind::QuasiStatic), ..TrialRequest::new(Input::BuiltIn(&SCENARIOS[0])) }
+    }
+
+    fn text(text: &str) -> Source {
+        Source::new("mine", text)
+    }
+
+    #[test]
+    fn a_seed_without_effect_is_an_error_unless_the_caller_says_so() {
+        let fixed = || Some(Input::Text(text("stiffness: 5 %\n")));
+        let seeded = |seed| TrialRequest { seed, ..request() };
+        let drawn = |mismatch| TrialRequest { mismatch, mismatch_seed: Some(3), uncalibrated: true, ..request() };
+        for request in [seeded(Some(3)), drawn(fixed()), drawn(None)] {
+            let told = request.prepare().unwrap_err().to_string();
+            assert!(told.contains("has no effect"), "{told}");
+            assert!(TrialRequest { unused_seeds: true, ..request }.prepare().is_ok());
+        }
+        assert!(drawn(Some(Input::Text(text("stiffness: [1 %, 5 %]\n")))).prepare().is_ok());
     }
 
     #[test]
@@ -237,7 +270,6 @@ mod tests {
             change(&mut request);
             request.prepare().unwrap_err().to_string()
         };
-        let text = |text: &str| Source::new("mine", text);
         let told = fails(&|request| request.policy = Some(PolicyInput::Text(text("machine a  initial B"))));
         assert!(told.starts_with("error[P") && told.contains(" --> mine:1:"), "{told}");
         let told = fails(&|request| request.scenario = Input::Text(text("name: a\n")));
@@ -251,8 +283,8 @@ mod tests {
 
     #[test]
     fn options_replace_those_of_the_scenario() {
-        let mismatch = Some(Input::BuiltIn(&PLAUSIBLE_MISMATCH));
-        let given = TrialRequest { mismatch, mismatch_seed: Some(7), seed: Some(5), ..request() };
+        let mismatch = Some(Input::Text(text("stiffness: [-5 %, 5 %]\nsensor: {noise: 0.1 urad}\n")));
+        let given = TrialRequest { mismatch, mismatch_seed: Some(7), uncalibrated: true, seed: Some(5), ..request() };
         let trial =
             TrialRequest { policy: Some(PolicyInput::BuiltIn(&DEFAULT_POLICY)), ..given }.prepare().unwrap().trial;
         assert_eq!((trial.seed, trial.world.kind), (5, WorldKind::QuasiStatic));

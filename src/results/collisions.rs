@@ -7,7 +7,7 @@ use crate::run::Trace;
 use crate::score;
 
 /// Contacts of the platform's body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Collisions {
     /// Number of separate contacts.

@@ -1,5 +1,6 @@
 //! Results as JSON documents: runs, ticks, and counts over runs.
 
+mod calibration_identity;
 mod collisions;
 mod contract_result;
 mod document;
@@ -12,6 +13,7 @@ mod shown_value;
 mod tally;
 mod tick_line;
 
+pub use calibration_identity::{CalibrationIdentity, CalibrationKind};
 pub use collisions::Collisions;
 pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};

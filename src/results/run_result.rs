@@ -1,12 +1,14 @@
 //! The result of a run as a JSON document.
 
 use super::Document;
+use super::calibration_identity::CalibrationIdentity;
 use super::collisions::Collisions;
 use super::contract_result::ContractResult;
 use super::inclination::Inclination;
 use super::largest_error::LargestError;
 use serde::{Serialize, Serializer};
 
+use crate::mismatch::Mismatch;
 use crate::run::{Run, Trace};
 use crate::scene::Outcome;
 use crate::score::{
@@ -33,6 +35,9 @@ pub struct RunResult {
     pub seed: u64,
     /// The mismatch between the simulated array and the assumed one. `None` without one.
     pub mismatch: Option<MismatchIdentity>,
+    /// The calibration of the array that control assumed. `None` for an array that is the assumed one, and that no
+    /// calibration changes.
+    pub calibration: Option<CalibrationIdentity>,
     /// Outcome of the run.
     pub outcome: Outcome,
     /// Reason of the outcome, such as the text of the policy's `Success` or `Failure`. `None` if a stop condition completed
@@ -118,18 +123,27 @@ pub struct Identity {
     pub seed: u64,
     /// The mismatch between the simulated array and the assumed one. `None` without one.
     pub mismatch: Option<MismatchIdentity>,
+    /// The calibration of the array that control assumed. `None` for an array that is the assumed one, and that no
+    /// calibration changes.
+    pub calibration: Option<CalibrationIdentity>,
     /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
 
 /// The mismatch between the simulated array and the assumed one. Its ranges are part of the scenario's hash.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct MismatchIdentity {
     /// Path of its file. `None` if the scenario alone has it.
     pub file: Option<String>,
     /// Seed of the values that are drawn from ranges.
     pub seed: u64,
+}
+
+impl From<&Mismatch> for MismatchIdentity {
+    fn from(mismatch: &Mismatch) -> Self {
+        Self { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0) }
+    }
 }
 
 /// Hashes of everything that a run depends on. Runs with equal hashes and seed have equal results.
@@ -313,10 +327,55 @@ impl RunResult {
         marked(&self.policy, self.true_tips)
     }
 
+    /// The result of a run that could not begin for this `reason`.
+    #[must_use]
+    pub fn refused(identity: Identity, reason: String) -> Self {
+        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
+        Self {
+            scenario,
+            policy,
+            true_tips,
+            world,
+            seed,
+            mismatch,
+            calibration,
+            outcome: Outcome::Refused,
+            reason: Some(reason),
+            final_state: String::new(),
+            sim_s: 0.0,
+            start_s: 0.0,
+            wall_s: 0.0,
+            realtime: None,
+            error_mm: ErrorMm { mean: None, std: None, p95: None, max: None, within_band: None, outliers: None, n: 0 },
+            largest_error: None,
+            tip_error_mm: None,
+            coverage: 0.0,
+            object_coverage: 0.0,
+            outline_coverages: Vec::new(),
+            out_of_reach: 0.0,
+            coverage_in_reach: 0.0,
+            passage: None,
+            hausdorff_mm: None,
+            failsafes: Failsafes::default(),
+            contracts: Vec::new(),
+            retrieval: None,
+            axis_mm: None,
+            corners: None,
+            states: Vec::new(),
+            path_m: 0.0,
+            path_ratio: 0.0,
+            collisions: Collisions::default(),
+            out_of_plane: None,
+            inclination: None,
+            tick_us: TickUs { mean: None, p99: None, max: None },
+            hash,
+        }
+    }
+
     /// The result of `run` with this `score`.
     #[must_use]
     pub fn new(identity: Identity, run: &Run, score: &Score) -> Self {
-        let Identity { scenario, policy, true_tips, world, seed, mismatch, hash } = identity;
+        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
         let millimetres = |metres: f64| metres * 1e3;
         let microseconds = |seconds: f64| seconds * 1e6;
         let (error, latency) = (score.error, score.latency);
@@ -329,6 +388,7 @@ impl RunResult {
             world,
             seed,
             mismatch,
+            calibration,
             outcome: run.outcome,
             reason: run.reason.clone(),
             final_state: run.final_state.clone(),

@@ -46,6 +46,7 @@ impl From<Outcome> for Ending {
             Outcome::Timeout => Self::Timeout,
             Outcome::Failed => Self::Failed,
             Outcome::Diverged => Self::Diverged,
+            Outcome::Refused => Self::Refused,
         }
     }
 }

@@ -93,6 +93,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         description: description?,
         rig,
         mismatch: mismatch?.map(|(mismatch, _)| mismatch),
+        self_calibration: None,
         physics,
         truth: objects.truth()?,
         solids: objects.into_solids(),

@@ -16,6 +16,8 @@ pub enum Outcome {
     Failed,
     /// The simulation can no longer be trusted.
     Diverged,
+    /// The run could not begin. No scenario can expect that.
+    Refused,
 }
 
 /// A figure of a run that an expectation can bound.
@@ -105,7 +107,7 @@ pub enum Violation {
 }
 
 impl Outcome {
-    /// All outcomes.
+    /// All outcomes of a run that has begun.
     pub const ALL: [Self; 4] = [Self::Completed, Self::Timeout, Self::Failed, Self::Diverged];
 
     /// The name in scenarios and results.
@@ -116,6 +118,7 @@ impl Outcome {
             Self::Timeout => "timeout",
             Self::Failed => "failed",
             Self::Diverged => "diverged",
+            Self::Refused => "refused",
         }
     }
 }

@@ -23,6 +23,8 @@ pub struct Scene {
     pub rig: Rig,
     /// The differences of the true array, which is simulated. `None` if it is the assumed one.
     pub mismatch: Option<Mismatch>,
+    /// The calibration that the true array has made by itself, if the rig has it.
+    pub self_calibration: Option<SelfCalibration>,
     /// The physics settings.
     pub physics: Physics,
     /// The solids, at least one. None overlaps another.
@@ -71,8 +73,13 @@ impl Scene {
     /// True if the seed of a run changes it: measurements have noise, or the true array is drawn.
     #[must_use]
     pub fn is_random(&self) -> bool {
-        let is_drawn = self.mismatch.as_ref().is_some_and(Mismatch::is_drawn);
-        self.rig.sensing.is_noisy() || is_drawn || self.true_array().is_some_and(|array| array.is_noisy())
+        self.is_noisy() || self.mismatch.as_ref().is_some_and(Mismatch::is_drawn)
+    }
+
+    /// True if measurements have noise.
+    #[must_use]
+    pub fn is_noisy(&self) -> bool {
+        self.rig.sensing.is_noisy() || self.true_array().is_some_and(|array| array.is_noisy())
     }
 
     /// True if the rig at `start`, with undeflected whiskers, is clear of all solids.
@@ -87,6 +94,15 @@ impl Scene {
         let surfaces = ContourSet::new(self.solids.iter().map(|solid| solid.surface().clone()));
         surfaces.unwrap_or_else(|| self.truth.surfaces.clone())
     }
+}
+
+/// A calibration that a simulated array has made by its own touches. The rig of the scene has its values.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SelfCalibration {
+    /// Hash of everything that it depends on.
+    pub hash: String,
+    /// True if an earlier command had made it.
+    pub cached: bool,
 }
 
 /// A file to which a scenario or a sweep refers.

@@ -1,6 +1,5 @@
 //! Experiments over many trials.
 
-mod array_calibration;
 pub mod bench;
 pub mod compare;
 pub mod estimators;
@@ -9,5 +8,3 @@ pub mod pareto;
 pub mod stress;
 pub mod timing;
 pub mod worlds;
-
-pub use array_calibration::{ArrayCalibration, ArrayCalibrationError};

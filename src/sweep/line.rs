@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::results::RunResult;
-use crate::results::{Ending, Figures, TipShares};
+use crate::results::{CalibrationIdentity, Ending, Figures, RunResult, TipShares};
 use crate::sweep::SweepRun;
 
 /// The result of a run of a sweep. Its serialised form is a line of the results.
@@ -125,4 +124,13 @@ pub(crate) fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
         .map_or_else(TipShares::default, |errors| TipShares::of_run(errors.n, errors.outliers, errors.within_band));
     let (error_mean_mm, error_p95_mm) = error_mm.map_or((None, None), |errors| (errors.mean, errors.p95));
     Ok((key, Figures { ending, passed, collided, error_mean_mm, error_p95_mm, tips }))
+}
+
+/// The calibration of a run, read from its line.
+pub(crate) fn read_calibration(line: &str) -> Option<CalibrationIdentity> {
+    #[derive(Deserialize)]
+    struct Calibrated {
+        calibration: Option<CalibrationIdentity>,
+    }
+    serde_json::from_str::<Calibrated>(line).ok()?.calibration
 }

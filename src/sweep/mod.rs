@@ -18,7 +18,7 @@ mod summary;
 
 pub use definition::Sweep;
 pub(crate) use header::Header;
-pub(crate) use line::{SweepLine, read_line};
+pub(crate) use line::{SweepLine, read_calibration, read_line};
 pub(crate) use merge::{Missing, merge};
 pub(crate) use plan::{Plan, PlanError};
 pub(crate) use results::{Results, ResultsError};

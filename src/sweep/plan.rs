@@ -9,6 +9,7 @@ use vibrissa_runtime::machine::{ParameterValue, Program};
 use vibrissa_runtime::units::Dimension;
 
 use super::{Header, ScenesOf, Shard, Sweep, SweepRun};
+use crate::calibration::ArrayCalibrationError;
 use crate::catalogue::common::SPEED;
 use crate::diagnostic::Source;
 use crate::family::{NoDraw, Values};
@@ -35,6 +36,14 @@ pub(crate) enum PlanError {
         scenario: PathBuf,
         /// The cause.
         cause: MismatchError,
+    },
+    /// The array of a run cannot be calibrated.
+    #[error("{}: the array cannot be calibrated: {cause}", scenario.display())]
+    Calibration {
+        /// The scenario of the run.
+        scenario: PathBuf,
+        /// The cause.
+        cause: ArrayCalibrationError,
     },
     /// A run cannot begin.
     #[error("{}: {cause}", scenario.display())]
@@ -82,12 +91,7 @@ impl Plan {
         if !prune {
             inputs.insert("pruning".to_owned(), "none".to_owned());
         }
-        if let Some(seed) = mismatch.seed() {
-            inputs.insert("the seed of the mismatch".to_owned(), seed.to_string());
-        }
-        if let Some(hash) = mismatch.hash() {
-            inputs.insert("the mismatch".to_owned(), short_hash(&hash.finalize()));
-        }
+        inputs.extend(mismatch.inputs());
         let mut hashed = |kind: &str, path: &Path, hash: Sha256| {
             inputs.insert(format!("{kind} {}", path.display()), short_hash(&hash.finalize()));
         };
@@ -161,8 +165,9 @@ impl Plan {
     /// [`PlanError`] if a run cannot begin.
     pub(crate) fn check(&self, mut note: impl FnMut(String)) -> Result<(), PlanError> {
         let mut noted = BTreeSet::new();
+        let mut scenes = Vec::new();
         for run in self.sweep.samples() {
-            let trial = self.trial(&run)?;
+            let trial = self.uncalibrated_trial(&run)?;
             check_world(trial.world.kind)
                 .map_err(|cause| PlanError::Execute { scenario: trial.inputs.scenario.clone(), cause })?;
             let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !trial.scene.is_random();
@@ -173,15 +178,24 @@ impl Plan {
             if let Err(cause) = trial.control() {
                 return Err(LoadError::at(&self.source, run.unfit(None, &cause.to_string())).into());
             }
+            scenes.push(trial.scene);
         }
-        Ok(())
+        Ok(self.mismatch.check_seed(scenes.iter()).map_err(LoadError::from)?)
     }
 
-    /// The trial of a run.
+    /// The trial of a run. Its array is calibrated.
     ///
     /// # Errors
     /// [`PlanError`] if it cannot be made.
     pub(crate) fn trial(&self, run: &SweepRun<'_>) -> Result<Trial, PlanError> {
+        let mut trial = self.uncalibrated_trial(run)?;
+        match self.mismatch.calibrate(&mut trial) {
+            Ok(()) => Ok(trial),
+            Err(cause) => Err(PlanError::Calibration { scenario: trial.inputs.scenario, cause }),
+        }
+    }
+
+    fn uncalibrated_trial(&self, run: &SweepRun<'_>) -> Result<Trial, PlanError> {
         let policy = &self.policies[run.policy];
         let mut program = policy.value.clone();
         let mut settings = Vec::new();

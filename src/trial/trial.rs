@@ -7,13 +7,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use sha2::{Digest, Sha256};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
-use crate::results::{Hashes, Identity, MismatchIdentity, RunResult, policy_label};
+use crate::results::{CalibrationIdentity, Hashes, Identity, MismatchIdentity, RunResult, policy_label};
 use crate::run::{Progress, Run, SteppedRun, Trace, Watcher, drive};
 use crate::scene::{Scene, Violation, WorldSetup};
 use crate::score::Score;
@@ -196,10 +197,23 @@ impl Trial {
         RunResult::new(self.identity(), &result.run, &result.score)
     }
 
+    /// The JSON document of this trial if it cannot begin for a `reason`.
+    #[must_use]
+    pub fn refused(&self, reason: String) -> RunResult {
+        RunResult::refused(self.identity(), reason)
+    }
+
     /// The name of the policy for people. It says so if the policy uses true tips.
     #[must_use]
     pub fn policy_label(&self) -> String {
         policy_label(&self.program)
+    }
+
+    /// The calibration of the array that control assumes. `None` for an array that is the assumed one, and that no calibration
+    /// changes.
+    #[must_use]
+    pub fn calibration(&self) -> Option<CalibrationIdentity> {
+        CalibrationIdentity::of(&self.scene, |text| short_hash(&Sha256::digest(text)))
     }
 
     /// The names and hashes that identify the trial.
@@ -210,11 +224,8 @@ impl Trial {
             true_tips: self.program.uses_true_tips(),
             world: self.world.kind.to_string(),
             seed: self.seed,
-            mismatch: self
-                .scene
-                .mismatch
-                .as_ref()
-                .map(|mismatch| MismatchIdentity { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0) }),
+            mismatch: self.scene.mismatch.as_ref().map(MismatchIdentity::from),
+            calibration: self.calibration(),
             hash: Hashes {
                 scenario: self.inputs.scenario_hash.clone(),
                 policy: self.inputs.policy_hash.clone(),

@@ -57,6 +57,22 @@ impl TuningScene {
         Ok(Self { name: draw.scene.name, of: SceneOf::Family { family, seed, number }, hash })
     }
 
+    /// Number of the scene in its family, 0 for a scenario.
+    pub(crate) fn number(&self) -> u64 {
+        match &self.of {
+            SceneOf::Scenario(_) => 0,
+            SceneOf::Family { number, .. } => *number,
+        }
+    }
+
+    /// The scene of a scenario.
+    pub(crate) fn of_scenario(&self) -> Option<&Scene> {
+        match &self.of {
+            SceneOf::Scenario(scene) => Some(scene),
+            SceneOf::Family { .. } => None,
+        }
+    }
+
     /// The run of a candidate. A scene of a family has its own speed, unless the speed (m/s) is tuned or fixed.
     ///
     /// # Errors

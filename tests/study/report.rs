@@ -40,6 +40,7 @@ fn identity() -> Identity {
         world: "mujoco".to_owned(),
         seed: 7,
         mismatch: None,
+        calibration: None,
         hash: Hashes { scenario, policy, engine },
     }
 }

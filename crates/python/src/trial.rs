@@ -33,8 +33,8 @@ pub(crate) struct Trial {
 impl Trial {
     #[new]
     #[pyo3(signature = (
-        scenario, policy = None, *, set = None, world = None, seed = None, mismatch = None, mismatch_seed = None, prune = true,
-        jitter = None, time_limit_s = None
+        scenario, policy = None, *, set = None, world = None, seed = None, mismatch = None, mismatch_seed = None, uncalibrated = false,
+        prune = true, jitter = None, time_limit_s = None, unused_seeds = false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python names them")]
     fn new(
@@ -46,23 +46,29 @@ impl Trial {
         seed: Option<u64>,
         mismatch: Option<GivenInput<'_>>,
         mismatch_seed: Option<u64>,
+        uncalibrated: bool,
         prune: bool,
         jitter: Option<(f64, f64)>,
         time_limit_s: Option<f64>,
+        unused_seeds: bool,
     ) -> PyResult<Self> {
         let request = TrialRequest {
             policy: policy.map(Into::into),
             settings: settings(set)?,
             mismatch: mismatch.map(Into::into),
             mismatch_seed,
+            uncalibrated,
             world: world.map(world_kind).transpose()?,
             prune,
-            seed,
+            // The start depends on the seed as well.
+            seed: seed.filter(|_| jitter.is_none()),
+            unused_seeds,
             ..TrialRequest::new(scenario.into())
         };
         let prepared = py.detach(|| request.prepare()).map_err(error)?;
         let mut trial = prepared.trial;
         if let Some((position, heading)) = jitter {
+            trial.seed = seed.unwrap_or(trial.seed);
             let start = Jitter { position, heading }.start(&trial.scene, trial.seed);
             let none = "almost no start within the jitter is collision-free; make `jitter` smaller";
             trial.scene.start = start.ok_or_else(|| error(none))?;

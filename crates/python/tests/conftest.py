@@ -28,4 +28,7 @@ def timeless(figures):
     """Figures without those that depend on the clock, and without those of the bench alone."""
     clock = {"format", "version", "start_s", "wall_s", "realtime", "tick_us"}
     bench = {"conditions", "baseline", "verdicts", "passed"}
-    return {key: value for key, value in figures.items() if key not in clock | bench}
+    figures = {key: value for key, value in figures.items() if key not in clock | bench}
+    if figures["calibration"]:
+        figures["calibration"] = {key: value for key, value in figures["calibration"].items() if key != "cached"}
+    return figures

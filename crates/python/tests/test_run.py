@@ -32,7 +32,7 @@ def test_the_example_has_the_figures_of_the_program_to_the_last_digit(program, w
 
 
 def test_options_have_the_effect_that_they_have_in_the_program(program):
-    mismatch = "scenarios/mismatch/plausible.yaml"
+    mismatch = "scenarios/mismatch/array.yaml"
     result = vibrissa.run(
         ROOT / "scenarios/disk.yaml",
         "vibrissa",

@@ -61,6 +61,34 @@ impl RunFigures {
             picture: plotted.svg,
         }
     }
+
+    /// The figures of a run that could not begin: empty ones.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            picture: "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"0\" height=\"0\"></svg>".to_owned(),
+            positions: Positions {
+                sides: (0.0, 0.0),
+                strips: (0.0, 0.0),
+                end_s: 0.0,
+                states: &[],
+                whiskers: &[],
+                tips: Vec::new(),
+            }
+            .json(),
+            band: String::new(),
+            histograms: [None, None],
+            ring: None,
+            duration: 0.0,
+        }
+    }
+}
+
+impl Positions<'_> {
+    fn json(&self) -> String {
+        // Without maps that have other keys than texts, this cannot fail.
+        serde_json::to_string(self).unwrap_or_default()
+    }
 }
 
 /// The positions with as many digits as a pointer can distinguish.
@@ -78,8 +106,7 @@ fn positions(plotted: &PlottedRun, trace: &Trace) -> String {
         whiskers: &trace.whiskers,
         tips: tips.collect(),
     };
-    // Without maps that have other keys than texts, this cannot fail.
-    serde_json::to_string(&positions).unwrap_or_default()
+    positions.json()
 }
 
 /// A run of a page.

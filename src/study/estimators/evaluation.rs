@@ -106,6 +106,7 @@ pub(in crate::study) fn evaluate(
     let share = |count: usize, of: usize| if of > 0 { count as f64 / of as f64 } else { 0.0 };
     Ok(EstimatorRow {
         scenario: scene.name.clone(),
+        calibration: None,
         noise,
         model: kinds.first().map_or("none", |kind| kind.name()),
         reported: share(tips.len(), asked),

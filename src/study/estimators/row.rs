@@ -1,6 +1,6 @@
 //! The figures of one contact estimator.
 
-use crate::results::Document;
+use crate::results::{CalibrationIdentity, Document};
 use serde::Serialize;
 
 /// The figures of one contact estimator on the samples of one scene.
@@ -9,6 +9,8 @@ use serde::Serialize;
 pub struct EstimatorRow {
     /// The scene.
     pub scenario: String,
+    /// The calibration of the array, if the caller has one. `None` for an array that is the assumed one.
+    pub calibration: Option<CalibrationIdentity>,
     /// Factor of the estimated noise of the real sensor.
     pub noise: f64,
     /// Name of the contact estimator.

@@ -10,7 +10,6 @@ use super::row::{Front, ParetoRow};
 use super::setting::{FINE_LINKS, Setting, set_links};
 use super::{Pareto, front};
 use crate::geometry::unit;
-use crate::mismatch::Mismatch;
 use crate::results::{Ending, MismatchIdentity, policy_label};
 use crate::scene::{Scene, WorldKind};
 use crate::score::{Estimate, Statistics};
@@ -21,8 +20,9 @@ use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 const START_OFFSET: f64 = 1e-3;
 
 /// Runs a policy in a scene `repeats` times under each of `settings`, one run at a time. The first setting is the
-/// default. Each round has every setting once, so that disturbances of the machine affect all of them. The scene has no
-/// mismatch. At the end, every setting runs once more with `mismatch`, for its error with a wrong model of the array.
+/// default. Each round has every setting once, so that disturbances of the machine affect all of them. These runs have no
+/// mismatch and no calibration. At the end, every setting runs once more in the scene `wrong`, for its error with a wrong model of the
+/// array. That scene has a mismatch, and possibly the calibration of its array.
 /// `progress` receives the setting of every run that is done.
 ///
 /// In all settings perception assumes as many links as in the fine run. Otherwise an estimator that assumes a coarse
@@ -33,7 +33,7 @@ const START_OFFSET: f64 = 1e-3;
 /// [`ExecuteError`] if the first setting cannot run. Any other setting that cannot run counts as refused.
 pub fn measure(
     scene: &Scene,
-    mismatch: &Mismatch,
+    wrong: &Scene,
     program: &Arc<Program>,
     world: WorldKind,
     settings: &[Setting],
@@ -64,14 +64,13 @@ pub fn measure(
     displaced.start.position -= START_OFFSET * unit(scene.start.heading);
     let floor_mm =
         fine.as_ref().and_then(|fine| timed(&displaced, program, world, &Setting::fine()).ok()?.mean_distance(fine));
-    let wrong = Scene { mismatch: Some(mismatch.clone()), ..scene.clone() };
     let mut rows = Vec::with_capacity(settings.len());
     for (index, (setting, first)) in settings.iter().zip(&firsts).enumerate() {
         let seconds = |round: &Vec<f64>| round[index];
         let ratios = Statistics::of(rounds.iter().map(|round| seconds(round) / round[0]).collect());
         let seconds = Statistics::of(rounds.iter().map(seconds).collect());
         let figures = ratios.zip(seconds).filter(|_| first.ending != Ending::Refused);
-        let mismatched = timed(&wrong, program, world, setting).unwrap_or_else(|cause| Measured::refused(&cause));
+        let mismatched = timed(wrong, program, world, setting).unwrap_or_else(|cause| Measured::refused(&cause));
         progress(setting);
         let (scene, world) = setting.apply(&scene, world);
         let fine_mm = fine.as_ref().and_then(|fine| first.mean_distance(fine));
@@ -82,7 +81,8 @@ pub fn measure(
         scenario: scene.name.clone(),
         policy: policy_label(program),
         repeats,
-        mismatch: MismatchIdentity { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0) },
+        mismatch: wrong.mismatch.as_ref().map(MismatchIdentity::from).unwrap_or_default(),
+        calibration: Trial::new(wrong.clone(), Arc::clone(program)).calibration(),
         contact_estimators: program.contact_estimators.iter().map(|kind| kind.name()).collect(),
         floor_mm,
         settings: rows,

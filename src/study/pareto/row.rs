@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::results::{Document, Ending, MismatchIdentity};
+use crate::results::{CalibrationIdentity, Document, Ending, MismatchIdentity};
 use crate::scene::{Scene, WorldKind};
 use crate::score::Statistics;
 
@@ -22,6 +22,8 @@ pub struct Pareto {
     pub contact_estimators: Vec<&'static str>,
     /// The mismatch of the runs with a wrong model of the array.
     pub mismatch: MismatchIdentity,
+    /// The calibration of the array in these runs. `None` without a mismatch.
+    pub calibration: Option<CalibrationIdentity>,
     /// Number of runs of every setting with the right model.
     pub repeats: usize,
     /// Mean distance (mm) between the tips of a second fine run, from a start 1 mm behind, and the contour of the fine

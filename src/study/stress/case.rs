@@ -72,6 +72,7 @@ pub(super) fn scene(name: &str, object: Contour, time: f64) -> Result<Scene, Cas
         description: String::new(),
         rig: Rig::default(),
         mismatch: None,
+        self_calibration: None,
         physics: Physics::default(),
         solids: vec![Solid::inside(object.clone())?],
         truth: object.into(),

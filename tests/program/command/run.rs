@@ -84,7 +84,7 @@ mod with_simulation {
     }
 
     /// The keys of a result.
-    const KEYS: [&str; 88] = [
+    const KEYS: [&str; 89] = [
         "object_coverage",
         "outline_coverages",
         "out_of_reach",
@@ -98,6 +98,7 @@ mod with_simulation {
         "tip_error_mm.bias",
         "tip_error_mm.scatter",
         "mismatch",
+        "calibration",
         "tip_error_mm.along",
         "tip_error_mm.along.max",
         "tip_error_mm.along.mean",

@@ -19,7 +19,8 @@ fn result(scenario: &str, off: f64) -> RunResult {
     let run = run_with(&[arc_of_tips(0.03 + off, 0.0, TAU, 0.05 / 30.0)]);
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
-    let identity = Identity { scenario, policy, true_tips: false, world, seed: 0, mismatch: None, hash };
+    let identity =
+        Identity { scenario, policy, true_tips: false, world, seed: 0, mismatch: None, calibration: None, hash };
     RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default()))
 }
 

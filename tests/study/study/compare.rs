@@ -94,7 +94,8 @@ fn result(seed: u64, ticks: usize, outcome: Outcome) -> RunResult {
     run.outcome = outcome;
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let [scenario, policy, world] = ["disk", "m", "mujoco"].map(str::to_owned);
-    let identity = Identity { scenario, policy, true_tips: false, world, seed, mismatch: None, hash };
+    let identity =
+        Identity { scenario, policy, true_tips: false, world, seed, mismatch: None, calibration: None, hash };
     RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into(), &Rig::default()))
 }
 

@@ -17,6 +17,7 @@ state Up { record r0  steer body along vector(1, 3) at 5 cm/s facing 90 deg }";
 fn row(scenario: &str, noise: f64, model: &'static str, mean_mm: Option<f64>) -> EstimatorRow {
     EstimatorRow {
         scenario: scenario.to_owned(),
+        calibration: None,
         noise,
         model,
         reported: if mean_mm.is_some() { 0.75 } else { 0.0 },

@@ -23,11 +23,11 @@ fn program() -> Arc<Program> {
     Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not built in")))).unwrap())
 }
 
-/// An array whose whiskers are stiffer than perception knows.
-fn stiff() -> Mismatch {
+/// The disk with an array whose whiskers are stiffer than perception knows.
+fn stiff() -> Scene {
     let mut mismatch = Mismatch::default();
     mismatch.common.set(Property::Stiffness, 0.05);
-    mismatch
+    Scene { mismatch: Some(mismatch), ..disk() }
 }
 
 /// What comes of the default and some other changes.

@@ -161,9 +161,11 @@ class Trial:
         seed: int | None = None,
         mismatch: Input | None = None,
         mismatch_seed: int | None = None,
+        uncalibrated: bool = False,
         prune: bool = True,
         jitter: tuple[float, float] | None = None,
         time_limit_s: float | None = None,
+        unused_seeds: bool = False,
     ) -> Trial: ...
     def run(self, *, samples: bool = False) -> Result: ...
     def begin(self) -> Episode: ...

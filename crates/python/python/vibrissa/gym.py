@@ -40,6 +40,7 @@ class WhiskerEnv(gymnasium.Env):
         *,
         world="quasistatic",
         mismatch=None,
+        uncalibrated=False,
         jitter=None,
         time_limit_s=None,
         speed_m_s=0.1,
@@ -49,14 +50,14 @@ class WhiskerEnv(gymnasium.Env):
         """Make an environment of a scenario.
 
         `scenario` is a path, the name of a built-in scenario, or a `Text`. It may also be a function that receives a seed and
-        returns one of these, for another scene in each episode. `mismatch` is drawn anew in each episode. `jitter` is the
-        largest displacement of the start (m) and its largest rotation (rad).
+        returns one of these, for another scene in each episode. `mismatch` is drawn anew in each episode. The array
+        then calibrates itself, unless `uncalibrated`. `jitter` is the largest displacement of the start (m) and its largest rotation (rad).
         """
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"there is no render mode {render_mode!r}; there is 'svg'")
         self.render_mode = render_mode
         self._scenario = scenario
-        self._options = dict(world=world, mismatch=mismatch, jitter=jitter, time_limit_s=time_limit_s)
+        self._options = dict(world=world, mismatch=mismatch, uncalibrated=uncalibrated, jitter=jitter, time_limit_s=time_limit_s)
         rig = Rig(self._scene(0))
         self._whiskers = rig.whiskers
         self._limits = np.array([speed_m_s, speed_m_s, yaw_rate_rad_s])
@@ -82,7 +83,7 @@ class WhiskerEnv(gymnasium.Env):
         scene, noise, mismatch = (int(drawn) for drawn in self.np_random.integers(2**63, size=3))
         if self._options["mismatch"] is not None:
             self._options["mismatch_seed"] = mismatch
-        self._trial = Trial(self._scene(scene), self._policy, seed=noise, **self._options)
+        self._trial = Trial(self._scene(scene), self._policy, seed=noise, unused_seeds=True, **self._options)
         self._episode, self._result = self._trial.begin(), None
         seen = self._episode.step(0.0, 0.0, 0.0)
         return self._observation(seen), self._info(seen)

@@ -3,7 +3,8 @@
 use vibrissa_runtime::calibration::{Calibration, Parameter, Parameters};
 use vibrissa_runtime::rig::{Rig, Whisker};
 
-use crate::calibration::{Pin, RefusedWhisker, TouchLimits, WhiskerTouches, start_beside_pin, touch_pin};
+use super::touch_procedure::{Pin, TouchLimits, start_beside_pin, touch_pin};
+use super::whisker_touches::{RefusedWhisker, WhiskerTouches};
 use crate::geometry::{Point2, ShapeError, circle};
 use crate::scene::{Scene, Truth, WorldSetup};
 use crate::solid::{Solid, SolidError};
