@@ -29,11 +29,13 @@ Commands:
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
+            --stale        only the pages whose inputs have changed, all of them without names; goes on where it was stopped
+            --check        only say which pages that are
             --program FILE use this program of the same commit instead of building it
   nightly run the families of docs/results/families.md again and print the verdicts that changed; calibrate drawn arrays
             --count N      only the first N scenes of each family
             --program FILE use this program instead of building it
-  pieces  remove each part of vibrissa.fsm in turn and write what it is worth into docs/results/pieces.md; goes on where it was stopped
+  pieces  remove each part of vibrissa.fsm in turn and write what it is worth into target/pieces; goes on where it was stopped
             --count N      run N scenes of each family (5)
             --program FILE use this program instead of building it
   python  build the wheel of the Python package, install it into a fresh virtual environment and run its tests
@@ -59,6 +61,8 @@ pub(crate) enum Command {
         save: bool,
     },
     Results(Selection),
+    /// Says which published pages are stale.
+    Stale,
     Nightly(nightly::Options),
     Pieces(pieces::Options),
     Python,
@@ -158,6 +162,8 @@ fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Comman
     let mut selection = Selection::default();
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
+            Some("--check") if selection == Selection::default() => return end("results", arguments, Command::Stale),
+            Some("--stale") => selection.stale = true,
             Some("--program") => selection.program = Some(program(&mut arguments)?),
             Some("--help" | "-h") => return Ok(Command::Help),
             Some(name) if !name.starts_with('-') => selection.names.push(name.to_owned()),
@@ -236,8 +242,12 @@ mod tests {
 
     #[test]
     fn results_take_names_and_a_program() {
-        let selection = Selection { names: vec!["bench".to_owned()], program: Some(PathBuf::from("v")) };
-        assert_eq!(parse(&["results", "--program", "v", "bench"]), Ok(Command::Results(selection)));
+        let selection = Selection { names: vec!["bench".to_owned()], stale: false, program: Some(PathBuf::from("v")) };
+        assert_eq!(parse(&["results", "--program", "v", "bench"]), Ok(Command::Results(selection.clone())));
+        let selection = Selection { stale: true, ..selection };
+        assert_eq!(parse(&["results", "--stale", "bench", "--program", "v"]), Ok(Command::Results(selection)));
+        assert_eq!(parse(&["results", "--check"]), Ok(Command::Stale));
+        assert!(parse(&["results", "--check", "bench"]).is_err() && parse(&["results", "bench", "--check"]).is_err());
         assert_eq!(parse(&["results"]), Ok(Command::Results(Selection::default())));
         assert_eq!(parse(&["results", "--program"]), Err(ArgumentError::NoProgram));
         assert!(parse(&["results", "--all"]).is_err());

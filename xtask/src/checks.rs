@@ -15,6 +15,7 @@ use crate::imports::{self, ImportsError};
 use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
 use crate::python::{self, PythonError};
+use crate::results::{self, StaleError};
 use crate::runtime::{self, RuntimeError};
 use crate::setup::{self, Options, SetupError};
 use crate::web::{self, WebError};
@@ -34,6 +35,7 @@ enum Work {
     Aarch64,
     Prose,
     Links,
+    Results,
     Book,
     Web,
     Browser,
@@ -75,6 +77,8 @@ pub(crate) enum CheckError {
     #[error(transparent)]
     Links(#[from] LinkError),
     #[error(transparent)]
+    Stale(#[from] StaleError),
+    #[error(transparent)]
     Book(#[from] BookError),
     #[error(transparent)]
     Web(#[from] WebError),
@@ -94,10 +98,11 @@ const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 /// long for each change, so they are among the nightly ones (.github/workflows/nightly.yml).
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation.
-const CHECKS: [Check; 20] = [
+const CHECKS: [Check; 21] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
+    Check { title: "published figures", work: Work::Results },
     Check { title: "order of the modules", work: Work::Imports },
     Check { title: "dependencies and targets of the runtime", work: Work::Runtime },
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
@@ -210,6 +215,7 @@ impl Check {
                 Ok(comments::check(root)?)
             }
             Work::Links => Ok(links::check(root)?),
+            Work::Results => Ok(results::check(root)?),
             Work::Book => the_book_is_built(root),
             Work::Web => with_browser_tools(web::check(root)),
             Work::Browser => with_browser_tools(web::browse(root)),

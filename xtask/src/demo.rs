@@ -29,7 +29,7 @@ pub(crate) fn demo(root: &Path) -> Result<ExitCode, DemoError> {
         let _sign = SignOfLife::of("setting up");
         setup::setup(root, &Options::default())?;
     }
-    println!("[2/3] Building in release: 2 to 8 minutes the first time, by the speed of the machine");
+    println!("[2/3] Building in release: some minutes the first time, by the speed of the machine");
     let start = Instant::now();
     let built = {
         let _sign = SignOfLife::of("building; the last crate, vibrissa itself, takes longest");

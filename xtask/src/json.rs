@@ -25,9 +25,21 @@ impl Json {
         entries.iter().find(|(name, _)| name == key).map(|(_, value)| value)
     }
 
-    /// The values of a list.
+    /// The values of a list, or those of the only list of objects in an object. So a list may also stand beside its provenance.
     pub(crate) fn items(&self) -> &[Self] {
-        if let Self::List(values) = self { values } else { &[] }
+        match self {
+            Self::List(values) => values,
+            Self::Object(entries) => {
+                let of_objects =
+                    |value: &Self| matches!(value, Self::List(values) if matches!(values[..], [Self::Object(_), ..]));
+                let mut lists = entries.iter().filter(|(_, value)| of_objects(value));
+                match (lists.next(), lists.next()) {
+                    (Some((_, list)), None) => list.items(),
+                    _ => &[],
+                }
+            }
+            _ => &[],
+        }
     }
 }
 
@@ -47,6 +59,14 @@ impl From<Value> for Json {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_list_may_stand_beside_its_provenance() {
+        let items = |text: &str| Json::read(text).map(|json| json.items().len());
+        assert_eq!(items("[1, 2]"), Some(2));
+        assert_eq!(items(r#"{"provenance": {"seeds": [1]}, "scenes": ["a"], "runs": [{"a": 1}, {"a": 2}]}"#), Some(2));
+        assert_eq!(items(r#"{"policies": [{"a": 1}], "figures": [{"a": 1}]}"#), Some(0), "which of the two?");
+    }
 
     #[test]
     fn keys_of_objects_in_lists_are_found() {

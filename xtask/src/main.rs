@@ -64,6 +64,7 @@ fn main() -> ExitCode {
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
         Command::Results(selection) => status(results::write(&root, &selection)),
+        Command::Stale => status(results::check(&root).map(|()| println!("No page is stale."))),
         Command::Nightly(options) => status(nightly::nightly(&root, &options)),
         Command::Pieces(options) => status(pieces::write(&root, &options)),
         Command::Python => status(python::test(&root)),

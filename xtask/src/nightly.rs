@@ -61,6 +61,10 @@ pub(crate) fn nightly(root: &Path, options: &Options) -> Result<(), NightlyError
     let page = fs::read_to_string(&path).map_err(|source| NightlyError::Read { path, source })?;
     // Before anything runs, so that a page without verdicts costs no time.
     let published = Verdicts::published(&page)?;
+    let stale = results::changes_of(root, "families")?;
+    if !stale.is_empty() {
+        println!("{FOLDER}/{PAGE} is stale, so verdicts may differ. These inputs changed: {}", stale.join(", "));
+    }
     if options.program.is_none() {
         results::build(root)?;
     }

@@ -19,8 +19,8 @@ use piece::Piece;
 
 /// The policy that is measured.
 const POLICY: &str = "vibrissa.fsm";
-/// The page with the result.
-const PAGE: &str = "docs/results/pieces.md";
+/// The page with the result, in the target directory. It is not published, because it takes an hour after each change of the policy.
+const PAGE: &str = "pieces/pieces.md";
 /// The runs that decide about a part that changes none of the scenes of the families.
 const FURTHER: [&str; 2] = [
     "families --world quasistatic --count 15 --seed 3002 --json",
@@ -121,8 +121,9 @@ pub(crate) fn write(root: &Path, options: &Options) -> Result<(), PiecesError> {
         eprintln!("      {} of {count}: {file}, line {}: {counts:?}", index + 1, piece.lines.start + 1);
         worths.push(Worth { file, piece, counts });
     }
-    fs::write(root.join(PAGE), page(&worths, base.len(), &commit))?;
-    println!("      {PAGE}");
+    let path = target_directory(root).join(PAGE);
+    fs::write(&path, page(&worths, base.len(), &commit))?;
+    println!("      {}", path.display());
     Ok(())
 }
 
@@ -170,8 +171,8 @@ fn page(worths: &[Worth], runs: usize, commit: &str) -> String {
     let mut page = format!(
         "# What each part of `vibrissa.fsm` is worth\n\n\
          Written by `cargo x pieces`. Each transition, rule and statement of the policy and of the libraries that it uses was removed \
-         in turn. The policy then ran in {runs} random scenes of the [families](../families.md), quasi-static. If no run changed, it ran in 120 \
-         further scenes, and then in the [bench](../bench.md) with friction and noise.\n\n\
+         in turn. The policy then ran in {runs} random scenes of the families (`docs/families.md`), quasi-static. If no run changed, it ran in 120 \
+         further scenes, and then in the bench with friction and noise.\n\n\
          *Lost* is the number of runs that passed with the part and not without it, less those that passed only without it. *Changed* is the \
          number of runs with other figures.\n\n\
          The policy is that of commit {commit}.\n"

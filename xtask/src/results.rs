@@ -1,9 +1,14 @@
 //! The pages of measured figures, `docs/results`, each made of the output of commands of the program.
 
+mod inputs;
+mod kept;
 mod mismatch;
 mod pages;
+mod program;
 mod readme;
 mod reproduction;
+mod stale;
+mod stamp;
 mod sums;
 mod table;
 mod tables;
@@ -12,18 +17,20 @@ mod verdicts;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus};
 use std::thread;
 use std::time::Instant;
 
 use thiserror::Error;
 
-use crate::cargo::{NotStarted, cargo};
-use crate::json::Json;
-use crate::setup::{self, Options, SetupError};
-use crate::sign_of_life::SignOfLife;
+use crate::cargo::NotStarted;
+use crate::setup::SetupError;
+use kept::Kept;
 pub(crate) use pages::FAMILIES;
-use pages::{PAGES, Page};
+use pages::{Content, PAGES, Page};
+pub(crate) use program::{build, output};
+pub(crate) use stale::{StaleError, changes_of, check, renew};
+use stamp::{Stamp, StampError};
 pub(crate) use table::{NoKey, number, value};
 pub(crate) use verdicts::{PageError, SIMULATORS, Verdicts, joined};
 
@@ -36,8 +43,10 @@ const PROGRAM: [&str; 8] =
 /// The pages to make, and the program to make them with.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub(crate) struct Selection {
-    /// The names of the pages; without any, those that take less than two minutes.
+    /// The names of the pages; without any, those that take less than two minutes, or all that are stale.
     pub(crate) names: Vec<String>,
+    /// Only pages whose stamps differ.
+    pub(crate) stale: bool,
     /// A program that is there already, instead of one that is built.
     pub(crate) program: Option<PathBuf>,
 }
@@ -51,6 +60,8 @@ pub(crate) enum ResultsError {
     Build(ExitStatus),
     #[error("`{}` cannot be run: {source}. Name a program that is there with `--program FILE`", path.display())]
     Program { path: PathBuf, source: io::Error },
+    #[error("`{}` contains another text of {file} than the checkout. Build it from the checkout", path.display())]
+    OtherProgram { path: PathBuf, file: String },
     #[error("`vibrissa {command}` failed ({status}); run it alone. It said:\n{said}")]
     Failed { command: String, status: ExitStatus, said: String },
     #[error("`vibrissa {0}` did not print JSON; run it alone and look at what it prints")]
@@ -61,8 +72,16 @@ pub(crate) enum ResultsError {
     Git(String),
     #[error("README.md has no table that begins with `| scene |`; restore it")]
     NoTable,
+    #[error("the picture was not written to {}: {source}", path.display())]
+    NoPicture { path: PathBuf, source: io::Error },
     #[error("cannot write {}: {source}; look at its permissions", path.display())]
     Write { path: PathBuf, source: io::Error },
+    #[error("page `{page}`: while it was made, this changed: {changed}. Run the command again")]
+    Changed { page: &'static str, changed: String },
+    #[error("these pages were not made:\n  {0}")]
+    Unmade(String),
+    #[error(transparent)]
+    Stamp(#[from] StampError),
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]
@@ -71,34 +90,84 @@ pub(crate) enum ResultsError {
 
 /// Runs the commands of the pages that are selected, and writes each page.
 pub(crate) fn write(root: &Path, selection: &Selection) -> Result<(), ResultsError> {
-    let pages = selected(&selection.names)?;
-    // Before anything runs, so that the state of the checkout is that of the program.
-    let commit = commit(root)?;
-    let machine = machine();
-    if selection.program.is_none() {
-        build(root)?;
+    if selection.stale {
+        return renew(root, selection);
     }
+    let pages = selected(&selection.names)?;
+    let press = Press::new(root, selection.program.as_deref())?;
     for page in pages {
-        eprintln!("{}: {}", page.name, page.about);
-        let start = Instant::now();
-        let outputs = page.commands.iter().map(|command| output(root, selection.program.as_deref(), command));
-        let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
-        let body = (page.body)(&outputs).map_err(|source| ResultsError::Key { page: page.name, source })?;
-        let path = root.join(FOLDER).join(page.name).with_extension("md");
-        let text = head(page, &commit, &machine) + &body;
-        let written = fs::create_dir_all(root.join(FOLDER)).and_then(|()| fs::write(&path, text));
-        written.map_err(|source| ResultsError::Write { path: path.clone(), source })?;
-        eprintln!("      {} after {} s", path.display(), start.elapsed().as_secs());
+        press.make(page, false)?;
     }
     write_readme(root)
+}
+
+/// What all pages of a call have in common.
+struct Press<'a> {
+    root: &'a Path,
+    kept: Kept<'a>,
+    /// The commit of the program.
+    commit: String,
+    machine: String,
+}
+
+impl<'a> Press<'a> {
+    /// With the given program, or one that is built.
+    fn new(root: &'a Path, program: Option<&Path>) -> Result<Self, ResultsError> {
+        // Before anything runs, so that the state of the checkout is that of the program.
+        let (commit, machine) = (commit(root)?, machine());
+        let kept = Kept::of(root, program::of_checkout(root, program)?)?;
+        Ok(Self { root, kept, commit, machine })
+    }
+
+    /// Makes a page. Outputs of earlier calls may be `reused`.
+    fn make(&self, page: &Page, reused: bool) -> Result<(), ResultsError> {
+        eprintln!("{}: {}", page.name, page.about);
+        let start = Instant::now();
+        let stamp = Stamp::of(self.root, page)?;
+        let text = match page.content {
+            Content::Tables(body) => {
+                let outputs = page.commands.iter().map(|command| self.kept.output(command, reused));
+                let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
+                let body = body(&outputs).map_err(|source| ResultsError::Key { page: page.name, source })?;
+                head(page, &self.commit, &self.machine) + &body + "\n"
+            }
+            // It takes seconds, and the file may be gone.
+            Content::Picture { command, made, .. } => {
+                self.kept.output(command, false)?;
+                let path = self.kept.folder_of(command)?.join(made);
+                fs::read_to_string(&path)
+                    .map_err(|source| ResultsError::NoPicture { path, source })?
+                    .trim_end()
+                    .to_owned()
+                    + "\n"
+            }
+        };
+        let changed = Stamp::of(self.root, page)?.changes(&stamp);
+        if !changed.is_empty() {
+            return Err(ResultsError::Changed { page: page.name, changed: changed.join(", ") });
+        }
+        let path = self.root.join(page.path());
+        let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+        let written = folder.and_then(|()| fs::write(&path, text + &stamp.text()));
+        written.map_err(|source| ResultsError::Write { path: path.clone(), source })?;
+        eprintln!("      {} after {} s", path.display(), start.elapsed().as_secs());
+        Ok(())
+    }
+}
+
+/// README.md with the figures of the pages in its table, and its present text.
+fn readme(root: &Path) -> Result<[String; 2], ResultsError> {
+    let text = |name: String| fs::read_to_string(root.join(name)).unwrap_or_default();
+    let page = |name: &str| text(format!("{FOLDER}/{name}.md"));
+    let present = text("README.md".to_owned());
+    let made = readme::with_figures(&present, &page("bench"), &page("mismatch")).ok_or(ResultsError::NoTable)?;
+    Ok([made, present])
 }
 
 /// Writes the figures of the pages into the table of README.md.
 fn write_readme(root: &Path) -> Result<(), ResultsError> {
     let path = root.join("README.md");
-    let page = |name: &str| fs::read_to_string(root.join(FOLDER).join(name)).unwrap_or_default();
-    let readme = fs::read_to_string(&path).unwrap_or_default();
-    let readme = readme::with_figures(&readme, &page("bench.md"), &page("mismatch.md")).ok_or(ResultsError::NoTable)?;
+    let [readme, _] = readme(root)?;
     fs::write(&path, readme).map_err(|source| ResultsError::Write { path, source })
 }
 
@@ -110,37 +179,6 @@ fn selected(names: &[String]) -> Result<Vec<&'static Page>, ResultsError> {
     let page =
         |name: &String| PAGES.iter().find(|page| page.name == name).ok_or_else(|| ResultsError::NoPage(name.clone()));
     names.iter().map(page).collect()
-}
-
-/// Builds the program in release.
-pub(crate) fn build(root: &Path) -> Result<(), ResultsError> {
-    setup::setup(root, &Options::default())?;
-    let _sign = SignOfLife::of("building; the last crate, vibrissa itself, takes longest");
-    let mut build = cargo(root, &["build", "--release", "--package", "vibrissa"]);
-    let status = build.status().map_err(|source| NotStarted { program: "cargo", source })?;
-    if status.success() { Ok(()) } else { Err(ResultsError::Build(status)) }
-}
-
-/// The output of a command of the program.
-pub(crate) fn output(root: &Path, program: Option<&Path>, command: &str) -> Result<Json, ResultsError> {
-    let mut run = if let Some(path) = program {
-        Command::new(path)
-    } else {
-        cargo(root, &["run", "--quiet", "--release", "--package", "vibrissa", "--"])
-    };
-    let path = program.unwrap_or(Path::new("cargo"));
-    eprintln!("      vibrissa {command}");
-    let output = {
-        let _sign = SignOfLife::of("running");
-        run.args(command.split_whitespace()).current_dir(root).stdin(Stdio::null()).output()
-    };
-    let output = output.map_err(|source| ResultsError::Program { path: path.to_owned(), source })?;
-    // 1 says only that a run did not meet what was expected of it.
-    if !matches!(output.status.code(), Some(0 | 1)) {
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(ResultsError::Failed { command: command.to_owned(), status: output.status, said });
-    }
-    Json::read(&String::from_utf8_lossy(&output.stdout)).ok_or_else(|| ResultsError::NoJson(command.to_owned()))
 }
 
 /// The commit that last changed the program, its date, and whether there are changes that are not committed.
@@ -213,7 +251,7 @@ mod tests {
         };
         assert!(names(&[]).is_ok_and(|names| names.contains(&"bench") && !names.contains(&"families")));
         assert_eq!(names(&["families"]).ok(), Some(vec!["families"]));
-        assert!(names(&["bnech"]).is_err_and(|error| error.to_string().contains("bench, reproduction, friction")));
+        assert!(names(&["bnech"]).is_err_and(|error| error.to_string().contains("calibration, bench, timing")));
     }
 
     #[test]

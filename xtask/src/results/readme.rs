@@ -1,6 +1,10 @@
 //! The table of README.md, from the pages of the bench and of the mismatches.
 
 use super::mismatch::BENCHES;
+use super::stamp::Stamp;
+
+/// The beginning of the line above the table: what it was made from.
+const MADE_FROM: &str = "<!-- the table below is made from";
 
 /// The headings of the columns with figures. The first two columns, scene and baseline, are written by hand.
 const HEADINGS: [&str; 5] = [
@@ -30,24 +34,26 @@ pub(super) fn with_figures(readme: &str, bench: &str, mismatch: &str) -> Option<
         }
         format!("| {} |", cells.join(" | "))
     });
-    let (before, after) = (&lines[..first], &lines[first + rows.len()..]);
-    let all = before.iter().map(|line| (*line).to_owned()).chain(table);
+    let before = lines[..first].iter().filter(|line| !line.starts_with(MADE_FROM));
+    let after = &lines[first + rows.len()..];
+    let hash = |page| Stamp::read(page).map_or_else(|| "without a stamp".to_owned(), |stamp| stamp.hash());
+    let (bench, mismatch) = (hash(bench), hash(mismatch));
+    let stamp = format!("{MADE_FROM} docs/results/bench.md, {bench}, and docs/results/mismatch.md, {mismatch} -->");
+    let all = before.map(|line| (*line).to_owned()).chain([stamp]).chain(table);
     let all: Vec<_> = all.chain(after.iter().map(|line| (*line).to_owned())).collect();
     Some(all.join("\n") + "\n")
 }
 
-/// The figures of a scene in the order of [`HEADINGS`].
+/// The figures of a scene in the order of [`HEADINGS`]. A run that is not complete has its outcome instead of its error.
 fn figures(scene: &str, bench: &str, mismatch: &str) -> [String; 5] {
     let of_bench = |policy: &str, heading| find(bench, "", &[scene, &format!("`{policy}`")], heading);
     let of_array = |policy: &str| find(mismatch, &format!("## Arrays under `{policy}.fsm`"), &[scene], BENCHES[1]);
+    let error = |policy: &str| match of_bench(policy, "outcome") {
+        Some(outcome) if outcome != "completed" => Some(outcome),
+        _ => of_bench(policy, "mean error, mm"),
+    };
     let coverage = of_bench("vibrissa", "coverage, %").map(|coverage| format!("{coverage} %"));
-    let figures = [
-        of_bench("thesis", "mean error, mm"),
-        of_array("thesis"),
-        of_bench("vibrissa", "mean error, mm"),
-        of_array("vibrissa"),
-        coverage,
-    ];
+    let figures = [error("thesis"), of_array("thesis"), error("vibrissa"), of_array("vibrissa"), coverage];
     figures.map(|figure| figure.unwrap_or_else(|| NONE.to_owned()))
 }
 
@@ -91,9 +97,11 @@ mod tests {
         let table = |mismatch| {
             let readme = with_figures(README, bench, mismatch).unwrap_or_default();
             assert!(
-                readme.starts_with("# A\n\n| scene | baseline | `thesis.fsm`, ideal") && readme.ends_with("|\n\nB\n")
+                readme.starts_with("# A\n\n<!-- the table")
+                    && readme.ends_with("|\n\nB\n")
+                    && readme.contains("-->\n| scene |")
             );
-            readme.lines().nth(4).map(str::to_owned).unwrap_or_default()
+            readme.lines().nth(5).map(str::to_owned).unwrap_or_default()
         };
         assert_eq!(table(""), "| round tunnel | about 3 | 0.4 | – | 0.2 | – | 96 % |");
         let array = |policy: &str, error: &str| {
@@ -105,21 +113,31 @@ mod tests {
         let mismatch = array("thesis", "0.8") + &array("vibrissa", "timeout");
         assert_eq!(table(&mismatch), "| round tunnel | about 3 | 0.4 | 0.8 | 0.2 | timeout | 96 % |");
         assert_eq!(with_figures("no table", bench, ""), None);
+        // A second time, there is still one stamp.
+        let once = with_figures(README, bench, &mismatch).unwrap_or_default();
+        assert_eq!(with_figures(&once, bench, &mismatch), Some(once));
     }
 
     #[test]
-    fn the_table_of_the_readme_has_the_figures_of_the_pages() {
+    fn a_run_that_is_not_complete_has_its_outcome_and_the_table_has_the_stamps_of_its_pages() {
+        let bench = "| scene | policy | outcome | mean error, mm | coverage, % |\n|---|---|---|---|---|\n\
+                     | round-tunnel | `thesis` | ended | 0.4 | 50 |\n| round-tunnel | `vibrissa` | completed | 0.2 | 96 |\n";
+        let stamped = |hash: &str| format!("{bench}\n<!-- made from\na.fsm {hash}\n-->\n");
+        let readme = |hash| with_figures(README, &stamped(hash), "").unwrap_or_default();
+        assert!(readme("1").contains("| round tunnel | about 3 | ended | – | 0.2 | – | 96 % |\n"), "{}", readme("1"));
+        assert_ne!(readme("1"), readme("2"));
+    }
+
+    /// That the figures are those of the pages is the check of published figures, `cargo x results --check`.
+    #[test]
+    fn the_table_of_the_readme_has_a_figure_or_an_outcome_for_every_scene() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-        let text = |name: &str| fs::read_to_string(root.join(name)).unwrap_or_default();
-        let (readme, bench) = (text("README.md"), text("docs/results/bench.md"));
-        let expected = with_figures(&readme, &bench, &text("docs/results/mismatch.md"));
-        assert_eq!(expected, Some(readme.clone()), "run cargo x results bench mismatch");
+        let readme = fs::read_to_string(root.join("README.md")).unwrap_or_default();
         let rows: Vec<_> = readme.lines().skip_while(|line| !line.starts_with("| scene |")).skip(2).collect();
         let rows: Vec<_> = rows.into_iter().take_while(|line| line.starts_with('|')).map(cells).collect();
         assert_eq!(rows.len(), 10);
-        // The page of the bench has all figures of every scene, so only those of the mismatches may be missing.
         for row in rows {
-            assert!([2, 4, 6].iter().all(|&column| row[column] != NONE), "{row:?}");
+            assert!(row.len() == 2 + HEADINGS.len() && row.iter().all(|cell| cell != NONE), "{row:?}");
         }
     }
 }
