@@ -169,7 +169,7 @@ pub(super) const PAGES: [Page; 15] = [
     Page {
         name: "pareto",
         title: "Results of run time against error",
-        about: "[Settings of the simulators and contact estimators](../pareto.md) on the disk under both built-in policies, medians of three rounds. The mismatch is that of `scenarios/mismatch/plausible.yaml`.",
+        about: "[Settings of the simulators and contact estimators](../pareto.md) on the disk under both built-in policies, medians of three rounds. The mismatch is that of `scenarios/mismatch/plausible.yaml`, after a calibration.",
         commands: &["pareto --json"],
         code: &["src/study/pareto"],
         has_times: true,
