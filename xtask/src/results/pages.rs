@@ -171,7 +171,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Results of run time against error",
         about: "[Settings of the simulators and contact estimators](../pareto.md) on the disk under both built-in policies, medians of three rounds. The mismatch is that of `scenarios/mismatch/plausible.yaml`, after a calibration.",
         commands: &["pareto --json"],
-        code: &["src/study/pareto"],
+        code: &["src/study/pareto", "crates/runtime/src/calibration", "src/calibration"],
         has_times: true,
         is_slow: false,
         content: Content::Tables(tables::pareto),
