@@ -19,7 +19,7 @@ use super::trials::make_directory;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use crate::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load;
+use crate::load::{self, LoadError, SeedWithoutEffect};
 use crate::physics::{Physics, Preset};
 use crate::report::{held_out_table, profile_picture};
 use crate::results::Document;
@@ -74,9 +74,9 @@ pub(super) struct CalibrateArguments {
     /// Simulate the estimated noise and resolution of the real sensors
     #[arg(long, conflicts_with = "sets")]
     pub(super) noise: bool,
-    /// Seed of the simulated noise
-    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = parse_seed)]
-    pub(super) seed: u64,
+    /// Seed of the simulated noise. The default is 0. Refused if nothing has noise
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_seed)]
+    pub(super) seed: Option<u64>,
     /// Write the calibration, the contacts and a picture of the deflection profile into this directory
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -103,6 +103,9 @@ impl Document for Printed<'_> {
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     if arguments.itself {
         return calibrate_array(arguments);
+    }
+    if arguments.seed.is_some() && !arguments.noise {
+        return Err(LoadError::from(SeedWithoutEffect::Noise).into());
     }
     if let Some(path) = &arguments.touches {
         return calibrate_touches(path, arguments);
@@ -275,7 +278,7 @@ fn simulated(
     whisker: usize,
     arguments: &CalibrateArguments,
 ) -> Result<Vec<ContactSet>, Failure> {
-    Ok(crate::calibration::simulated_sets(rig, physics, whisker, arguments.seed)?)
+    Ok(crate::calibration::simulated_sets(rig, physics, whisker, arguments.seed.unwrap_or(0))?)
 }
 
 #[cfg(not(feature = "sim"))]

@@ -15,7 +15,7 @@ use super::trials::make_directory;
 use crate::built_in::SCENARIOS;
 use crate::calibration::{ArrayCalibration, TouchLimits, WhiskerTouches, undetermined, write_touches};
 use crate::file::{CommandFiles, Output};
-use crate::load;
+use crate::load::{self, LoadError, check_noise_seed};
 use crate::report::measured_table;
 use crate::results::Document;
 use crate::scenario::write_calibration;
@@ -96,11 +96,15 @@ pub(super) fn calibrate_array(arguments: &CalibrateArguments) -> Result<Exit, Fa
         scene.rig.sensing.make_real();
     }
     let mismatch = arguments.mismatch.load(&mut files)?;
+    let mut first = scene.clone();
+    mismatch.apply(&mut first, &mut Sha256::default(), 0).map_err(Failure::mismatch(&path))?;
+    mismatch.check_seed(std::iter::once(&first)).map_err(LoadError::from)?;
+    check_noise_seed(arguments.seed, std::iter::once(&first)).map_err(LoadError::from)?;
     let report = Report::new(arguments.out.as_deref(), &scene.rig, &mut files)?;
     let array = |number: &u64| -> Result<(Option<u64>, ArrayCalibration), Failure> {
         let mut scene = scene.clone();
         mismatch.apply(&mut scene, &mut Sha256::default(), *number).map_err(Failure::mismatch(&path))?;
-        let (world, seed) = (arguments.world.of(&scene), arguments.seed.wrapping_add(*number));
+        let (world, seed) = (arguments.world.of(&scene), arguments.seed.unwrap_or(0).wrapping_add(*number));
         let found = ArrayCalibration::run(&scene, world, seed, &TouchLimits::default())?;
         Ok((scene.mismatch.and_then(|mismatch| mismatch.seed), found))
     };

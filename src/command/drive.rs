@@ -25,7 +25,7 @@ use crate::emulated;
 use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
-use crate::load::{self, GivenMismatch, Loaded};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, check_noise_seed};
 use crate::report::{faults_table, results_table};
 use crate::results::DriveResult;
 use crate::trial::{Inputs, Trial};
@@ -127,6 +127,9 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         noise_microtesla: arguments.sensor_noise,
         injections,
     };
+    if settings.noise_microtesla == 0.0 {
+        check_noise_seed(arguments.seed, std::iter::once(&scene)).map_err(LoadError::from)?;
+    }
     let (config, config_text) = match &arguments.config {
         Some(path) => {
             let (config, text) = config(path, &mut files)?;

@@ -150,9 +150,12 @@ fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Resu
         let inputs = inputs(&path, &scenario_hash.finalize(), &hash.clone().finalize());
         let name = scene.name.clone();
         let trial = Trial { world, inputs, ..Trial::new(scene, Arc::clone(&program)) };
-        trials.push((name, calibrated(&trial, &mismatch)?));
+        trials.push((name, trial));
     }
     mismatch.check_seed(trials.iter().map(|(_, trial)| &trial.scene)).map_err(LoadError::from)?;
+    for (_, trial) in &mut trials {
+        *trial = calibrated(trial, &mismatch)?;
+    }
     say_calibrations(trials.iter().map(|(_, trial)| trial));
     Ok(PolicyRuns { policy, trials })
 }

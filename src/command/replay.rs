@@ -142,7 +142,10 @@ fn recorded_trial(
     files: &mut CommandFiles,
 ) -> Result<Option<Trial>, Failure> {
     let identity = |key: &str| run.identity().get(key).map_or("", String::as_str);
-    let is_recorded = |loaded: &Loaded<Scene>| short_hash(&loaded.hash.clone().finalize()) == identity("scenario_hash");
+    let is_recorded = |loaded: &Loaded<Scene>| {
+        let hashes = [loaded.hash.clone(), loaded.hash.clone().chain_update(load::UNCALIBRATED)];
+        hashes.iter().any(|hash| short_hash(&hash.clone().finalize()) == identity("scenario_hash"))
+    };
     let loaded = match given {
         Some(path) => {
             let loaded = load::scenario(path, files)?;

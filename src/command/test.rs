@@ -14,10 +14,10 @@ use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
-use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar, say_calibrations};
+use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar};
 use crate::diagnostic::{Diagnostic, Record, Source, Span, records};
 use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, SeedWithoutEffect, with_settings};
 use crate::policy::{PolicyTest, TestScenes};
 use crate::property::Regressions;
 use crate::results::{Document, RunResult};
@@ -111,16 +111,17 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     if let (0, Some(filter)) = (count, &arguments.filter) {
         return Err(Failure::NoSuchTest { filter: filter.clone() });
     }
-    let trials = || tests().filter_map(Runs::trial);
-    mismatch.check_seed(trials().map(|trial| &trial.scene)).map_err(LoadError::from)?;
-    say_calibrations(trials());
+    mismatch.check_seed(tests().filter_map(Runs::trial).map(|trial| &trial.scene)).map_err(LoadError::from)?;
+    let properties = tests().filter(|runs| matches!(runs, Runs::Property(_))).count();
+    if arguments.search.seed.is_some() && properties == 0 {
+        return Err(LoadError::from(SeedWithoutEffect::Cases).into());
+    }
     make_directory(arguments.out.as_deref())?;
     let reports = (1..).zip(tests()).map(|(number, runs)| {
         let stem = arguments.out.as_ref().map(|directory| directory.join(file_name(number, runs.title())));
         stem.map(|stem| Report::new(&stem, runs, &mut files)).transpose()
     });
     let mut reports = reports.collect::<Result<Vec<_>, _>>()?.into_iter();
-    let properties = tests().filter(|runs| matches!(runs, Runs::Property(_))).count();
 
     let mut progress = None;
     let mut tested = Vec::with_capacity(count);
@@ -128,7 +129,9 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
         for runs in tests {
             let report = reports.next().flatten();
             tested.push(match runs {
-                Runs::Test(test, trial) => run_test(source, test, trial, report, arguments.json)?,
+                Runs::Test(test, trial) => {
+                    run_test(source, test, &calibrated(trial, &mismatch)?, report, arguments.json)?
+                }
                 Runs::Property(property) => {
                     let progress = progress.get_or_insert_with(|| Progress::new(properties * arguments.search.cases));
                     run_property(source, property, regressions, report, arguments, progress)?
@@ -139,6 +142,8 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     if let Some(progress) = progress {
         progress.finish();
     }
+    let results = tested.iter().filter_map(|tested| tested.result.as_ref());
+    output::calibrations(results.filter_map(|result| result.calibration.as_ref()));
     let failed = tested.iter().filter(|tested| !tested.passed).count();
     if arguments.json {
         output::json_list(&tested)?;
@@ -283,8 +288,7 @@ fn trial_of(
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
     let inputs = inputs(&path, &hash.finalize(), &policy_hash.finalize());
-    let trial = Trial { world: simulated.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) };
-    calibrated(&trial, simulated.mismatch)
+    Ok(Trial { world: simulated.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
 }
 
 /// Prints whether a test has passed. The outcome of a passed run was expected, even if it is a failure, and is not

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
-use super::trials::{calibrated, inputs, report_events, say_calibrations};
+use super::trials::{calibrated, inputs, report_events};
 use super::values::{parse_cases, parse_seed};
 use crate::catalogue::Entry;
 use crate::catalogue::common::SPEED;
@@ -33,9 +33,9 @@ pub(super) struct SearchOptions {
     /// Number of random cases of each property, from 1 to 100000
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = parse_cases)]
     pub(super) cases: usize,
-    /// Seed of the random cases
-    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
-    seed: u64,
+    /// Seed of the random cases. The default is 1. Refused if no property is tested
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = parse_seed)]
+    pub(super) seed: Option<u64>,
     /// Do not keep a case that violates a property in the file beside the policy
     #[arg(long)]
     pub(super) no_keep: bool,
@@ -157,7 +157,7 @@ impl<'a> Property<'a> {
             }
         }
         if failing.is_none() {
-            let mut search = Search::new(&self.ranges, self.title(), options.seed);
+            let mut search = Search::new(&self.ranges, self.title(), options.seed.unwrap_or(1));
             if let Some(drawn) = self.first_failure(&mut search, options.cases, jobs, progress, &mut cases)? {
                 let Shrunk { case, tried } = search.shrink(drawn, |case| {
                     progress.doing(format_args!("{}: simpler than {}", self.title(), case.notable(&self.ranges)));
@@ -254,7 +254,6 @@ impl<'a> Property<'a> {
         let finished = trial.run().map_err(Failure::execute(&trial))?;
         let faults = violations(&self.test, &trial.program, &finished);
         let result = trial.document(&finished);
-        say_calibrations(std::iter::once(&trial));
         Ok(Failing { case, is_new, scenario, trial, finished, result, faults })
     }
 }

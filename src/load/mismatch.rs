@@ -16,6 +16,9 @@ use crate::scenario::read_mismatch;
 use crate::scene::{Scene, WorldSetup};
 use crate::trial::{Trial, short_hash};
 
+/// What the hash of a scenario has in addition if its array is not calibrated.
+pub(crate) const UNCALIBRATED: &str = "\0uncalibrated";
+
 /// The array of the runs of a command: the mismatch that is added to scenes, and the calibration of the true array.
 pub(crate) struct GivenMismatch {
     /// The file.
@@ -118,10 +121,11 @@ impl GivenMismatch {
             hash.update(seed.to_le_bytes());
         }
         mismatch.seed = Some(seed);
-        mismatch.check(&scene.rig)?;
+        // The world may be chosen later. MuJoCo refuses a light array when it is built.
+        mismatch.check_without_inertia(&scene.rig)?;
         scene.mismatch = Some(mismatch);
-        if self.is_calibrated() && ArrayCalibrations::concern(scene) {
-            hash.update("\0calibrated");
+        if !self.is_calibrated() && ArrayCalibrations::concern(scene) {
+            hash.update(UNCALIBRATED);
         }
         Ok(())
     }

@@ -10,6 +10,8 @@ mod text;
 
 pub(crate) use error::LoadError;
 pub(crate) use mismatch::GivenMismatch;
+#[cfg(feature = "live")]
+pub(crate) use mismatch::UNCALIBRATED;
 #[cfg(feature = "lsp")]
 pub(crate) use policy::library_for_editor;
 pub(crate) use policy::{
@@ -20,7 +22,7 @@ pub(crate) use recording::recording;
 pub(crate) use scenario::{
     beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in, touches,
 };
-pub(crate) use seed::check_noise_seed;
+pub(crate) use seed::{SeedWithoutEffect, check_noise_seed};
 pub(crate) use text::{read, read_standard};
 
 use sha2::Sha256;

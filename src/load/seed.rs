@@ -12,10 +12,13 @@ pub(crate) enum SeedWithoutEffect {
          ranges as in scenarios/mismatch/array.yaml"
     )]
     Mismatch,
+    /// That of the cases of properties.
+    #[error("the seed of the cases (--seed) has no effect, because no property is tested; leave it out")]
+    Cases,
     /// That of the noise.
     #[error(
-        "the seed of the noise (--seed) has no effect, because these runs have no noise; leave it out, or add noise to `rig.sensing` of \
-         the scenario or with a mismatch"
+        "the seed of the noise (--seed) has no effect, because nothing has noise; leave it out, or add noise: --noise of `bench` \
+         and `calibrate`, `rig.sensing` of a scenario, or `sensor` and `pose` of a mismatch"
     )]
     Noise,
 }

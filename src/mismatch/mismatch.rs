@@ -6,9 +6,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::array::{PoseErrors, SensorErrors, TrueArray};
+use super::ranges::Values;
 use super::whisker::true_whisker;
 use super::{Loss, Property, Ranges};
-use crate::physics::{MIN_INERTIA, link_inertia};
+use crate::physics::light_link;
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::MAX_WHISKERS;
 
@@ -58,7 +59,8 @@ pub enum MismatchError {
     },
     /// A whisker could be too light for a simulation.
     #[error(
-        "the links of the true whisker `{name}` could be too light to be simulated; use fewer `links`, or a greater `radius`"
+        "the links of the true whisker `{name}` could be too light to be simulated by MuJoCo; use fewer `links`, or a greater `radius`, \
+         or write `world: quasistatic`, a simulator without inertia"
     )]
     Light {
         /// The whisker.
@@ -117,32 +119,43 @@ impl Mismatch {
         self.file = self.file.take().or_else(|| other.file.clone());
     }
 
-    /// Checks that every array that can be drawn for an `assumed` rig can be simulated.
+    /// Checks that every array that can be drawn for an `assumed` rig can be simulated by MuJoCo.
     ///
     /// # Errors
     /// [`MismatchError`] if it cannot.
     pub fn check(&self, assumed: &Rig) -> Result<(), MismatchError> {
+        self.check_without_inertia(assumed)?;
+        assumed.whiskers.iter().try_for_each(|whisker| self.check_inertia(whisker))
+    }
+
+    /// Checks that every array that can be drawn for an `assumed` rig can be simulated without inertia.
+    ///
+    /// # Errors
+    /// [`MismatchError`] if it cannot.
+    pub fn check_without_inertia(&self, assumed: &Rig) -> Result<(), MismatchError> {
         let is_known = |name: &String| assumed.whiskers.iter().any(|whisker| whisker.name == *name);
         if let Some(name) = self.whiskers.keys().find(|name| !is_known(name)) {
             let known: Vec<_> = assumed.whiskers.iter().map(|whisker| format!("`{}`", whisker.name)).collect();
             return Err(MismatchError::UnknownWhisker { name: name.clone(), known: known.join(", ") });
         }
-        assumed.whiskers.iter().try_for_each(|whisker| self.check_whisker(whisker))
+        let least = |whisker: &Whisker| whisker.shaft.length + self.smallest(whisker).or_zero(Property::Length);
+        match assumed.whiskers.iter().find(|whisker| least(whisker) < LEAST_LENGTH) {
+            Some(short) => Err(MismatchError::Short { name: short.name.clone(), length: least(short) }),
+            None => Ok(()),
+        }
     }
 
-    fn check_whisker(&self, assumed: &Whisker) -> Result<(), MismatchError> {
-        // The lightest links are those of the shortest and thinnest shaft with the most links.
-        let values = self.ranges(&assumed.name).extreme(|property| property != Property::Links);
-        let name = || assumed.name.clone();
-        let length = assumed.shaft.length + values.or_zero(Property::Length);
-        if length < LEAST_LENGTH {
-            return Err(MismatchError::Short { name: name(), length });
+    fn check_inertia(&self, assumed: &Whisker) -> Result<(), MismatchError> {
+        let shaft = true_whisker(assumed, &self.smallest(assumed)).shaft;
+        match light_link(&shaft) {
+            Some(_) => Err(MismatchError::Light { name: assumed.name.clone() }),
+            None => Ok(()),
         }
-        let shaft = true_whisker(assumed, &values).shaft;
-        if (0..shaft.links).any(|link| link_inertia(&shaft, link) < MIN_INERTIA) {
-            return Err(MismatchError::Light { name: name() });
-        }
-        Ok(())
+    }
+
+    /// The values with the lightest links: those of the shortest and thinnest shaft with the most links.
+    fn smallest(&self, assumed: &Whisker) -> Values {
+        self.ranges(&assumed.name).extreme(|property| property != Property::Links)
     }
 
     /// The ranges of a whisker.

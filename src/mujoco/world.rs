@@ -1,7 +1,7 @@
 //! A rig among solids, simulated by MuJoCo.
 
 use crate::geometry::{Point2, Pose, unit};
-use crate::physics::{Physics, ShaftModel};
+use crate::physics::{MIN_INERTIA, Physics, ShaftModel, light_link};
 use crate::solid::Solid;
 use crate::world::{Fault, OutOfPlane, Posture, SNAP_OFF_SPEED, World};
 use crate::world::{Sensors, raised, whole};
@@ -23,6 +23,18 @@ pub enum MujocoError {
     /// MuJoCo rejected the generated model.
     #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
     Model(String),
+    /// A link of a shaft has less inertia than MuJoCo simulates.
+    #[error(
+        "the links of whisker `{whisker}` are too light to be simulated by MuJoCo: a moment of inertia of {inertia:.2e} kg m^2, where \
+         {:.0e} kg m^2 is the least; use fewer `links` or a thicker shaft, or run in the world `quasistatic`, which has no inertia",
+        MIN_INERTIA
+    )]
+    Light {
+        /// The whisker.
+        whisker: String,
+        /// The moment of inertia of the link (kg m²).
+        inertia: f64,
+    },
     /// The rig has cables, and their plugin is not available.
     #[error(transparent)]
     Plugin(#[from] PluginError),
@@ -80,6 +92,11 @@ impl MujocoWorld {
         capacity: Option<usize>,
     ) -> Result<Self, MujocoError> {
         prepare_engine()?;
+        for whisker in &rig.whiskers {
+            if let Some(inertia) = light_link(&whisker.shaft) {
+                return Err(MujocoError::Light { whisker: whisker.name.clone(), inertia });
+            }
+        }
         if physics.shafts == ShaftModel::Cable {
             load_cable_plugin()?;
         }

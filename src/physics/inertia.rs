@@ -14,3 +14,9 @@ pub(crate) const MIN_INERTIA: f64 = 1e-15;
 pub(crate) fn link_inertia(shaft: &Shaft, link: usize) -> f64 {
     shaft.link_mass(link) * shaft.link_length().powi(2) / 12.0
 }
+
+/// The moment of inertia (kg m²) of a link that is too light for MuJoCo, if there is one.
+#[must_use]
+pub(crate) fn light_link(shaft: &Shaft) -> Option<f64> {
+    (0..shaft.links).map(|link| link_inertia(shaft, link)).find(|&inertia| inertia < MIN_INERTIA)
+}

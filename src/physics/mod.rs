@@ -8,7 +8,7 @@ mod preset;
 mod shaft_model;
 mod solver;
 
-pub(crate) use inertia::{MIN_INERTIA, link_inertia};
+pub(crate) use inertia::{MIN_INERTIA, light_link, link_inertia};
 pub use integrator::Integrator;
 pub use physics::Physics;
 pub use preset::Preset;

@@ -17,12 +17,14 @@ pub(crate) struct Reader<'s> {
     files: &'s mut Files<'s>,
     faults: Vec<Diagnostic>,
     budget: Budget,
+    /// True if the text states a simulator without inertia.
+    pub(crate) is_quasi_static: bool,
 }
 
 impl<'s> Reader<'s> {
     /// Creates a reader for `source` with the diagnostics that exist so far. Referenced files are in `files`.
     pub(crate) fn new(source: &'s Source, files: &'s mut Files<'s>, faults: Vec<Diagnostic>) -> Self {
-        Self { source, files, faults, budget: Budget::default() }
+        Self { source, files, faults, budget: Budget::default(), is_quasi_static: false }
     }
 
     /// The bytes of the file with this `path`.

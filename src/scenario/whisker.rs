@@ -156,6 +156,8 @@ fn shaft(reader: &mut Reader<'_>, fields: &mut Fields<'_>, usual: Shaft, place: 
     if reader.fault_count() == fault_count {
         match tip {
             Some(tip) if tip_radius > shaft.radius => reader.report(thick_tip(&shaft, tip_radius, tip)),
+            // Without inertia, a shaft may be as light as that of an animal.
+            _ if reader.is_quasi_static => {}
             _ => check_inertia(reader, &shaft, place),
         }
     }
@@ -184,8 +186,10 @@ fn check_inertia(reader: &mut Reader<'_>, shaft: &Shaft, place: Span) {
         kilogram_metres(inertia),
         kilogram_metres(MIN_INERTIA)
     );
-    let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated", place, label);
-    reader.report(fault.hint("use fewer `links`, or a thicker, longer or denser shaft"));
+    let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated by MuJoCo", place, label);
+    reader.report(fault.hint(
+        "use fewer `links`, or a thicker, longer or denser shaft; or write `world: quasistatic`, a simulator without inertia",
+    ));
 }
 
 /// Reads a hinge, as differences from the `usual` one.

@@ -8,3 +8,5 @@ pub mod pareto;
 pub mod stress;
 pub mod timing;
 pub mod worlds;
+
+pub use crate::calibration::{ArrayCalibration, ArrayCalibrationError};

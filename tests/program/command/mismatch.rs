@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
@@ -15,6 +16,11 @@ fn run(arguments: &[&str]) -> Value {
     results[0].take()
 }
 
+/// The same for an array that does not calibrate itself.
+fn uncalibrated(arguments: &[&str]) -> Value {
+    run(&[arguments, &["--uncalibrated"]].concat())
+}
+
 fn file(directory: &Path, name: &str, text: &str) -> String {
     let path = directory.join(name).display().to_string();
     fs::write(&path, text).unwrap();
@@ -26,12 +32,14 @@ fn a_mismatch_is_a_part_of_the_identity_of_a_run() {
     let directory = directory("mismatch_run");
     let soft = file(&directory, "soft.yaml", "stiffness: [-5 %, -1 %]\n");
     let (ideal, first, second) =
-        (run(&[]), run(&["--mismatch", &soft]), run(&["--mismatch", &soft, "--mismatch-seed", "2"]));
+        (run(&[]), uncalibrated(&["--mismatch", &soft]), uncalibrated(&["--mismatch", &soft, "--mismatch-seed", "2"]));
     assert_eq!(ideal["mismatch"], Value::Null);
     assert_eq!(first["mismatch"], serde_json::json!({"file": soft, "seed": 0}));
     assert_eq!(second["mismatch"], serde_json::json!({"file": soft, "seed": 2}));
     let hashes = [&ideal, &first, &second].map(|result| result["hash"]["scenario"].as_str().unwrap());
     assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[0] != hashes[2]);
+    assert_eq!(ideal["calibration"], Value::Null);
+    assert_eq!(first["calibration"], serde_json::json!({"kind": "uncalibrated", "hash": null, "cached": false}));
     let bias = |result: &Value| result["tip_error_mm"]["bias"].as_f64().unwrap();
     assert!(bias(&first) > bias(&ideal) + 0.1 && (bias(&first) - bias(&second)).abs() > 1e-3);
 }
@@ -70,7 +78,8 @@ fn a_sweep_passes_its_mismatch_to_its_workers_and_varies_single_keys() {
         ),
     );
     let out = directory.join("out").display().to_string();
-    let sweep = |arguments: &[&str]| vibrissa(&[&["sweep", &sweep, "--out", &out], arguments].concat());
+    let sweep =
+        |arguments: &[&str]| vibrissa(&[&["sweep", &sweep, "--uncalibrated", "--out", &out], arguments].concat());
     let output = sweep(&["--mismatch", &soft]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let found = mismatches(Path::new(&out));
@@ -105,7 +114,7 @@ fn tests_and_properties_run_with_the_mismatch() {
         ),
     );
     let soft = file(&directory, "soft.yaml", "stiffness: [-9 %, -8 %]\n");
-    let given = ["--mismatch", &soft, "--mismatch-seed", "4"];
+    let given = ["--mismatch", &soft, "--mismatch-seed", "4", "--uncalibrated"];
     let (ideal, wrong) = (tests(&policy, &[]), tests(&policy, &given));
     let passed = |results: &[Value]| results.iter().map(|result| result["passed"] == true).collect::<Vec<_>>();
     assert_eq!(passed(&ideal), [true, true]);
@@ -116,4 +125,198 @@ fn tests_and_properties_run_with_the_mismatch() {
     // The command in the failing scenario has the same array.
     let scenario = wrong[1]["property"]["scenario"].as_str().unwrap();
     assert!(scenario.contains(&given.join(" ")), "{scenario}");
+}
+
+/// A policy that swipes for some seconds, so that all scenes are fast.
+fn short_policy(directory: &Path) -> String {
+    let text = fs::read_to_string(Path::new(ROOT).join("policies/thesis.fsm")).unwrap();
+    let machine = text.split_once("\ntest ").map_or(text.as_str(), |(machine, _)| machine);
+    file(directory, "thesis.fsm", machine)
+}
+
+const PLAUSIBLE: &str = "scenarios/mismatch/plausible.yaml";
+
+#[test]
+fn an_array_has_the_same_calibration_and_figures_in_every_command() {
+    let directory = directory("mismatch_commands");
+    let policy = short_policy(&directory);
+    let common = ["--policy", &policy, "--world", "quasistatic", "--mismatch", PLAUSIBLE, "--json"];
+    let results = |command: &[&str]| -> Vec<Value> {
+        let output = vibrissa(&[command, &common].concat());
+        assert!(stderr(&output).contains("calibrat"), "{}", stderr(&output));
+        serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)))
+    };
+    let (bench, run) = (results(&["bench"]), results(&["run", "scenarios/box.yaml"]));
+    let of_box = bench.iter().find(|row| row["scenario"] == "box").unwrap();
+    for key in ["error_mm", "tip_error_mm", "coverage", "sim_s", "path_m", "mismatch", "hash"] {
+        assert_eq!(run[0][key], of_box[key], "{key}");
+    }
+    let calibration = |result: &Value| (result["calibration"]["kind"].clone(), result["calibration"]["hash"].clone());
+    assert_eq!(calibration(&run[0]), calibration(of_box));
+    assert_eq!(run[0]["calibration"]["kind"], "touches");
+
+    // A section of the scenario means the same as the option.
+    let text = fs::read_to_string(Path::new(ROOT).join("scenarios/box.yaml"))
+        .unwrap()
+        .replace("policies", &format!("{ROOT}/policies"));
+    let text = text.replace("../", "");
+    let mismatch = format!("mismatch: {{from: {ROOT}/{PLAUSIBLE}}}\n");
+    let section = file(&directory, "box.yaml", &(text + &mismatch));
+    let output = vibrissa(&["run", &section, "--policy", &policy, "--world", "quasistatic", "--json"]);
+    let found: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+    assert_eq!((&found[0]["error_mm"], calibration(&found[0])), (&run[0]["error_mm"], calibration(&run[0])));
+
+    // So does a trial of a sweep, in a process of its own.
+    let sweep = format!(
+        "name: one\npolicies: [{policy}]\nscenes: [{{scenario: {ROOT}/scenarios/box.yaml}}]\nvary: {{scenario: {{world: [quasistatic]}}}}\n"
+    );
+    let (sweep, out) = (file(&directory, "one.yaml", &sweep), directory.join("out"));
+    let output = vibrissa(&["sweep", &sweep, "--mismatch", PLAUSIBLE, "--out", &out.display().to_string()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("calibrated by its own touches"), "{}", stderr(&output));
+    let lines = fs::read_to_string(out.join("results.jsonl")).unwrap();
+    let line: Value = serde_json::from_str(lines.lines().nth(1).unwrap()).unwrap();
+    assert_eq!((&line["error_mm"], calibration(&line)), (&run[0]["error_mm"], calibration(&run[0])));
+}
+
+/// The program with a cache of its own.
+fn with_cache(cache: &Path, scenario: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+    let arguments = [
+        "run",
+        scenario,
+        "--policy",
+        "policies/thesis.fsm",
+        "--world",
+        "quasistatic",
+        "--mismatch",
+        PLAUSIBLE,
+        "--json",
+    ];
+    command
+        .args(arguments)
+        .env("VIBRISSA_CACHE", cache)
+        .current_dir(ROOT)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+#[test]
+fn a_calibration_is_kept_and_a_damaged_one_is_made_again() {
+    let directory = directory("mismatch_cache");
+    let text = "name: short\nobjects: [{circle: {centre: [0.4 m, 0.4 m], radius: 0.3 m}}]\nstart: {position: [0 m, 72 mm], heading: 90 deg}\nstop: {time: 8 s}\n";
+    let (scenario, cache) = (file(&directory, "short.yaml", text), directory.join("cache"));
+    let read = |output: std::process::Output| -> (Value, bool) {
+        let mut results: Value =
+            serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+        let cached = results[0]["calibration"]["cached"].as_bool().unwrap();
+        (results[0]["error_mm"].take(), cached)
+    };
+    let run = || read(with_cache(&cache, &scenario).output().unwrap());
+    // Two processes at once.
+    let both = [(); 2].map(|()| with_cache(&cache, &scenario).spawn().unwrap());
+    let [first, second] = both.map(|child| read(child.wait_with_output().unwrap()));
+    assert_eq!(first.0, second.0);
+    assert_eq!(run(), (first.0.clone(), true));
+    let kept: Vec<_> = fs::read_dir(cache.join("calibrations")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let [kept] = kept.as_slice() else { panic!("{kept:?}") };
+    let whole = fs::read(kept).unwrap();
+    let mut flipped = whole.clone();
+    let digit = flipped.iter().rposition(u8::is_ascii_digit).unwrap();
+    flipped[digit] = if flipped[digit] == b'1' { b'2' } else { b'1' };
+    for damaged in [&whole[..whole.len() / 2], &flipped, b""] {
+        fs::write(kept, damaged).unwrap();
+        assert_eq!(run(), (first.0.clone(), false));
+        assert_eq!(fs::read(kept).unwrap(), whole);
+    }
+    // Without a place for a cache, an array is calibrated all the same.
+    fs::write(directory.join("file"), "").unwrap();
+    for none in [directory.join("file"), "".into()] {
+        assert_eq!(read(with_cache(&none, &scenario).output().unwrap()), (first.0.clone(), false));
+    }
+}
+
+#[test]
+fn a_seed_without_effect_is_an_error() {
+    let directory = directory("mismatch_seeds");
+    let fixed = file(&directory, "fixed.yaml", "stiffness: 5 %\n");
+    let noisy = file(&directory, "noisy.yaml", "sensor: {noise: 0.1 urad}\n");
+    let (run, bench) = (&["run", "scenarios/disk.yaml"][..], &["bench"][..]);
+    let refused = |command: &[&str], options: &[&str], seed: &str| {
+        let output = vibrissa(&[command, options].concat());
+        assert_eq!(output.status.code(), Some(2), "{command:?} {options:?}");
+        assert!(stderr(&output).contains(&format!("({seed}) has no effect")), "{}", stderr(&output));
+    };
+    let compare = ["compare", "policies/bang.fsm", "policies/thesis.fsm"];
+    let test = ["test", "policies/thesis.fsm"];
+    for command in [
+        run,
+        bench,
+        &compare,
+        &test,
+        &["families", "--count", "1"],
+        &["estimators"],
+        &["pareto"],
+        &["diff", "policies/bang.fsm", "policies/thesis.fsm"],
+        &["calibrate", "--self"],
+    ] {
+        refused(command, &["--mismatch-seed", "3", "--mismatch", &fixed], "--mismatch-seed");
+    }
+    refused(run, &["--mismatch-seed", "3"], "--mismatch-seed");
+    for command in [run, bench] {
+        refused(command, &["--seed", "3"], "--seed");
+        refused(command, &["--seed", "3", "--mismatch", &fixed], "--seed");
+    }
+    refused(&["calibrate"], &["--seed", "3"], "--seed");
+    refused(&["calibrate", "--self"], &["--seed", "3", "--mismatch", &fixed], "--seed");
+    let seeded =
+        |seed: &str| self::run(&["--mismatch", &noisy, "--uncalibrated", "--seed", seed])["error_mm"]["mean"].clone();
+    assert_ne!(seeded("3"), seeded("4"));
+}
+
+/// A policy with an optional whisker failed in the whole bench from a friction of 0.4 on.
+#[test]
+fn friction_ends_the_curve_of_a_whisker_and_refuses_no_run() {
+    let directory = directory("friction");
+    for friction in ["0.4", "1", "3"] {
+        let text = format!(
+            "name: rough\nworld: quasistatic\nrig: {{physics: {{friction: {friction}}}, sensing: {{friction: {friction}}}}}\n\
+             objects: [{{circle: {{centre: [0.4 m, 0.4 m], radius: 0.3 m}}}}]\nstart: {{position: [0 m, 72 mm], heading: 90 deg}}\nstop: {{time: 3 s}}\n"
+        );
+        let rough = file(&directory, "rough.yaml", &text);
+        for policy in ["policies/thesis.fsm", "policies/vibrissa.fsm"] {
+            let output = vibrissa(&["run", &rough, "--policy", policy]);
+            assert!(matches!(output.status.code(), Some(0 | 1)), "{friction}, {policy}: {}", stderr(&output));
+        }
+    }
+}
+
+/// A rat's whisker: 30 mm long, 0.1 mm thick at the base and 4 um at the tip.
+#[test]
+fn whiskers_of_a_rat_run_without_inertia_and_mujoco_says_why_it_refuses_them() {
+    let directory = directory("rat");
+    let whisker = "{length: 30 mm, radius: 0.05 mm, tip_radius: 0.002 mm, young_modulus: 3 GPa, density: 1300 kg/m^3}";
+    let scene = |world: &str| {
+        format!(
+            "name: rat\n{world}rig:\n  whiskers:\n    r0: {whisker}\n    l0: {whisker}\nobjects: [{{circle: {{centre: [0.4 m, 0.4 m], radius: 0.3 m}}}}]\n\
+             start: {{position: [0 m, 72 mm], heading: 90 deg}}\nstop: {{time: 20 s}}\n"
+        )
+    };
+    let rat = file(&directory, "rat.yaml", &scene("world: quasistatic\n"));
+    let output = vibrissa(&["run", &rat, "--json"]);
+    let results: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+    assert!(results[0]["sim_s"].as_f64().unwrap() > 1.0, "{results}");
+    if cfg!(feature = "sim") {
+        let output = vibrissa(&["run", &rat, "--world", "mujoco"]);
+        assert_eq!(output.status.code(), Some(2));
+        let told = stderr(&output);
+        assert!(
+            told.contains("whisker `r0` are too light to be simulated by MuJoCo") && told.contains("quasistatic"),
+            "{told}"
+        );
+    }
+    let output = vibrissa(&["run", &file(&directory, "heavy.yaml", &scene(""))]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("or write `world: quasistatic`"), "{}", stderr(&output));
 }

@@ -143,7 +143,9 @@ impl Perception {
             let filter = LowPass::new(sensing.filter_cutoff, sensing.sample_rate)?;
             let calibration = whisker.calibration.as_ref();
             let (length, bend_sign) = (whisker.shaft.length, whisker.side());
-            let mechanics = || TipCurve::with_friction(&whisker, whisker.friction(sensing));
+            // A whisker without contacts has no friction either.
+            let friction = index.map_or(0.0, |_| whisker.friction(sensing));
+            let mechanics = || TipCurve::with_friction(&whisker, friction);
             let too_few = || PerceptionError::NoSurface { whisker: whisker.name.clone(), estimator: kind };
             let curve = match kind {
                 Kind::Polynomial => match calibration.and_then(|calibration| calibration.polynomial.as_ref()) {

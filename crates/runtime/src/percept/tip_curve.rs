@@ -56,9 +56,10 @@ pub enum TipCurveError {
         /// Angle (rad) by which it trails, including the friction angle.
         sweep: f64,
     },
-    /// The chain has no equilibrium in the range of the curve.
+    /// The chain has almost no equilibrium in the range of the curve.
     #[error(
-        "whisker {whisker}: the shaft has no equilibrium beyond a base angle of {:.0} urad; make the shaft softer or the hinge stiffer",
+        "whisker {whisker}: on surfaces with a friction of {friction} the shaft has no equilibrium beyond a base angle of {:.0} urad; \
+         state a smaller `friction`, sweep the whisker back, or make its shaft softer or its hinge stiffer",
         base_angle * 1e6
     )]
     NoEquilibrium {
@@ -66,6 +67,8 @@ pub enum TipCurveError {
         whisker: String,
         /// The base angle (rad).
         base_angle: f64,
+        /// The coefficient of friction.
+        friction: f64,
     },
 }
 
@@ -74,6 +77,8 @@ pub enum TipCurveError {
 const MOMENT_RANGE: f64 = 6.0;
 /// Number of steps of the base angle.
 const STEPS: usize = 120;
+/// Least number of steps. With friction, a shaft may have no equilibrium at large base angles, so that its curve is shorter.
+const LEAST_STEPS: usize = 12;
 /// Smallest angle (rad) between the undeflected shaft and the surface normal. A shaft that meets a surface head-on may
 /// buckle to either side, so that its contact is undetermined.
 const LEAST_SWEEP: f64 = 0.087;
@@ -96,10 +101,12 @@ impl TipCurve {
         Self::with_friction(whisker, 0.0)
     }
 
-    /// Computes the curve of `whisker` on surfaces along which it slides forward with this coefficient of friction.
+    /// Computes the curve of `whisker` on surfaces along which it slides forward with this coefficient of friction. It ends at
+    /// the largest base angle at which the chain has an equilibrium.
     ///
     /// # Errors
-    /// [`TipCurveError`] if the whisker sticks instead of sliding, or its chain has no equilibrium in the range.
+    /// [`TipCurveError`] if the whisker sticks instead of sliding, or its chain has an equilibrium in less than a tenth of the
+    /// range.
     pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipCurveError> {
         let chain = match whisker.side() {
             side if side < 0.0 => ShaftChain::new(&whisker.mirrored()),
@@ -127,17 +134,19 @@ impl TipCurve {
                 guess.force += solution.force - before.force;
                 guess.tip_angle += solution.tip_angle - before.tip_angle;
             }
+            let found = if index > 0 { chain.solve(base_angle, force_direction, &guess) } else { Some(solution) };
+            let found = found.and_then(|found| Some((found, chain.solve(base_angle, force_direction - TURN, &found)?)));
+            let Some((found, turned)) = found else {
+                if index > LEAST_STEPS {
+                    break;
+                }
+                return Err(TipCurveError::NoEquilibrium { whisker: whisker.name.clone(), base_angle, friction });
+            };
             if index > 0 {
-                before = solution;
-                solution = chain
-                    .solve(base_angle, force_direction, &guess)
-                    .ok_or_else(|| TipCurveError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
+                (before, solution) = (solution, found);
             }
             // The tip is a hemisphere with the radius of the shaft. It touches on the side from which the force comes.
             let contact = solution.tip_base - tip_radius * normal;
-            let turned = chain
-                .solve(base_angle, force_direction - TURN, &solution)
-                .ok_or_else(|| TipCurveError::NoEquilibrium { whisker: whisker.name.clone(), base_angle })?;
             let turned_contact = turned.tip_base - tip_radius * rotate(normal, -TURN);
             contacts.push(contact);
             let off = (turned_contact - contact) * (SURFACE_DEVIATION / TURN);
