@@ -1,4 +1,6 @@
-//! Lets programs find MuJoCo's library where set-up put it, with no environment variable.
+//! Lets programs find MuJoCo's library where set-up put it, with no environment variable, and names the sources for the cache.
+
+#![allow(clippy::disallowed_methods, reason = "a build script cannot use the crate that it builds")]
 
 use std::env;
 use std::fs;

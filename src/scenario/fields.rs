@@ -31,6 +31,11 @@ impl<'n> Fields<'n> {
         Some(Self { what, place, entries, known: Vec::new(), missing: Vec::new() })
     }
 
+    /// The value of a key, if it exists. The key does not become known by that.
+    pub(crate) fn peek(&self, name: &str) -> Option<&'n Node> {
+        self.entries.iter().find(|entry| entry.key.value == name).map(|entry| &entry.value.value)
+    }
+
     /// The entry of a key, if it exists.
     pub(crate) fn entry(&mut self, name: &'static str) -> Option<&'n Entry> {
         self.known.push(name);

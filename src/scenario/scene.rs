@@ -44,8 +44,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         None => Some(String::new()),
     };
     let quasi_static = WorldKind::QuasiStatic.name();
-    let world = fields.entry("world").map(|entry| &entry.value.value);
-    reader.is_quasi_static = matches!(world, Some(Node::Text(text)) if text == quasi_static);
+    reader.is_quasi_static = matches!(fields.peek("world"), Some(Node::Text(world)) if world == quasi_static);
     let rig = match fields.entry("rig") {
         Some(entry) => rig::read(reader, entry),
         None => Some((Rig::default(), Physics::default())),
