@@ -7,11 +7,13 @@ mod document;
 mod drive_result;
 mod inclination;
 mod largest_error;
+mod rate;
 mod replay_result;
 mod run_result;
 mod shown_value;
 mod tally;
 mod tick_line;
+mod wilson;
 
 pub use calibration_identity::{CalibrationIdentity, CalibrationKind};
 pub use collisions::Collisions;
@@ -20,6 +22,7 @@ pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
 pub use inclination::Inclination;
 pub use largest_error::LargestError;
+pub use rate::Rate;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub(crate) use run_result::marked;
 pub use run_result::{

@@ -31,6 +31,9 @@ mod stamp;
 mod standard_library;
 mod web;
 mod wheel;
+// The program and the pages state the same intervals.
+#[path = "../../src/results/wilson.rs"]
+mod wilson;
 
 use std::env;
 use std::path::{Path, PathBuf};

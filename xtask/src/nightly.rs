@@ -11,7 +11,8 @@ use std::{fs, io};
 use thiserror::Error;
 
 use crate::results::{self, FAMILIES, FOLDER, NoKey, PageError, ResultsError, SIMULATORS, Verdicts, joined};
-use binomial::{interval, sign_test};
+use crate::wilson::wilson;
+use binomial::sign_test;
 use ellipsoids::{CALIBRATIONS, Ellipsoids};
 
 /// The page of the pass rates, in [`FOLDER`].
@@ -128,8 +129,8 @@ fn before(published: &[Verdicts], found: &Verdicts) -> Result<Verdicts, NightlyE
 fn comparison(before: &Verdicts, now: &Verdicts) -> String {
     let Verdicts { family, runs, .. } = now;
     let share = |of: &Verdicts| {
-        let percent = |share: f64| 100.0 * share.clamp(0.0, 1.0);
-        let [low, high] = interval(of.passed(), of.runs).map(percent);
+        let percent = |share: f64| 100.0 * share;
+        let [low, high] = wilson(of.passed(), of.runs).unwrap_or([0.0, 1.0]).map(percent);
         let rate = percent(of.passed() as f64 / of.runs as f64);
         format!("{rate:.1} % (95 % interval {low:.1} to {high:.1} %)")
     };

@@ -1,16 +1,4 @@
-//! Statements about shares of random scenes.
-
-/// The quantile of the normal distribution for an interval of 95 %.
-const QUANTILE: f64 = 1.959_963_984_540_054;
-
-/// The 95 % interval of a share, after Wilson: all shares `p` from which `passed / runs` is no farther than 1.96 standard
-/// deviations of `p`.
-pub(super) fn interval(passed: u64, runs: u64) -> [f64; 2] {
-    let (share, runs) = (passed as f64 / runs as f64, runs as f64);
-    let square = QUANTILE * QUANTILE / runs;
-    let half = (square * (share * (1.0 - share) + square / 4.0)).sqrt();
-    [-half, half].map(|half| (share + square / 2.0 + half) / (1.0 + square))
-}
+//! The significance of changed verdicts.
 
 /// The probability that of `lost + gained` changed verdicts at least as many are on one side, if both sides are equally likely
 /// (the exact two-sided sign test).
@@ -31,18 +19,6 @@ pub(super) fn sign_test(lost: u64, gained: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_ends_of_an_interval_are_1_96_standard_deviations_from_the_share() {
-        for (passed, runs) in [(0, 50), (1, 3), (44, 50), (95, 200), (200, 200)] {
-            let share = passed as f64 / runs as f64;
-            for end in interval(passed, runs) {
-                assert!((-1e-12..=1.0 + 1e-12).contains(&end), "{end}");
-                let deviation = (end * (1.0 - end) / runs as f64).max(0.0).sqrt();
-                assert!(((end - share).abs() - QUANTILE * deviation).abs() < 1e-6, "{passed} of {runs}: {end}");
-            }
-        }
-    }
 
     /// Each bit is a changed verdict. All patterns are equally likely.
     #[test]
