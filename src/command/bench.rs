@@ -10,14 +10,13 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{ArrayOptions, ConditionOptions, Format, Jobs, Policies, WorldOptions};
 use super::output;
-use super::trials::{Finished, inputs, make_directory, run_all};
+use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
 use super::values::parse_seed;
 use crate::built_in::SCENARIOS;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, GivenMismatch, LoadError, check_noise_seed};
 use crate::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use crate::results::{Document, RunResult};
-use crate::scene::{Outcome, Violation};
+use crate::results::{Document, Ending, RunResult};
 use crate::study::bench::{BenchRow, Conditions};
 use crate::study::compare::OlderRuns;
 use crate::trial::Trial;
@@ -67,9 +66,9 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let (conditions, trials): (Vec<_>, Vec<_>) = trials.into_iter().unzip();
     let finished = run_all(&trials, &array, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut figures) = (Vec::with_capacity(finished.len()), Vec::new());
-    for (Finished { result, violations, figures: drawn }, conditions) in finished.into_iter().zip(conditions) {
-        let row = BenchRow::new(result, violations.is_empty()).under(conditions);
-        report_row(&row, &violations);
+    for (Finished { result, figures: drawn, .. }, conditions) in finished.into_iter().zip(conditions) {
+        let row = BenchRow::new(result).under(conditions);
+        report_row(&row);
         rows.push(row);
         figures.push(drawn.unwrap_or_else(RunFigures::none));
     }
@@ -131,17 +130,15 @@ pub(super) fn bench_trials(
     Ok((trials, mismatch))
 }
 
-/// Reports the reason of an incomplete run, and the expectations that do not hold without friction, noise and mismatch.
-fn report_row(row: &BenchRow, violations: &[Violation]) {
-    let RunResult { policy, outcome, reason, .. } = &row.result;
-    let scene = row.scene();
-    if *outcome != Outcome::Completed {
-        let reason = reason.as_deref().unwrap_or("unknown reason");
-        output::message(format_args!("{scene}, {policy}: {outcome}: {reason}"));
+/// Reports the reason of a run that did not complete, what stopped it or the expectations that do not hold, and dead whiskers.
+fn report_row(row: &BenchRow) {
+    let RunResult { policy, outcome, .. } = &row.result;
+    if *outcome != Ending::Completed {
+        let explanation = row.result.explanation();
+        let reason = explanation.as_deref().unwrap_or("unknown reason");
+        output::message(format_args!("{}, {policy}: {outcome}: {reason}", row.scene()));
     }
-    for violation in violations.iter().filter(|_| row.is_ideal()) {
-        output::message(format_args!("{scene}, {policy}: {violation}"));
-    }
+    report_dead_whiskers(&format!("{}, {policy}", row.scene()), &row.result);
 }
 
 /// The files for a picture of every run, all results, and the page.

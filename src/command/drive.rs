@@ -19,7 +19,7 @@ use super::live::{LivePage, REAL_TIME, begin, serve_on};
 use super::options::{Format, WorldOptions};
 use super::output;
 use super::run_recording::RunRecording;
-use super::trials::{ReportFiles, inputs, make_directory, report_events};
+use super::trials::{ReportFiles, inputs, make_directory, report_events, report_violations};
 use super::values::parse_seed;
 use crate::emulated;
 use crate::file::CommandFiles;
@@ -191,16 +191,14 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     })?;
     #[cfg(feature = "live")]
     if let Some(page) = page {
-        page.finish(&emulated.result.run);
+        page.finish(&emulated.result);
     }
     if let Some(recording) = recording {
         recording.finish()?;
     }
     let document = trial.document(&emulated.result);
     report_events(&document);
-    for violation in &emulated.result.violations {
-        output::message(format_args!("{}: {violation}", trial.scene.name));
-    }
+    report_violations(&trial.scene.name, &emulated.result);
     let exit = if emulated.result.violations.is_empty() { Exit::Done } else { Exit::Unexpected };
     if let Some(report) = report {
         report.write(&trial, &emulated.result, &document)?;

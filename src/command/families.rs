@@ -11,7 +11,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{ArrayOptions, FamilyValues, Format, Jobs, Settings, WorldOptions};
 use super::output;
-use super::trials::{Finished, inputs, make_directory, run_all};
+use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
 use super::values::{parse_runs, parse_seed};
 use crate::built_in::DEFAULT_POLICY;
 use crate::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
@@ -181,16 +181,7 @@ fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>
         let Drawn { family, number: trial, draw } = drawn;
         let Finished { result, violations, figures } = finished;
         let passed = violations.is_empty();
-        let reasons = violations.iter().map(|violation| reason(violation, result.reason.as_deref())).collect();
-        let run = FamilyRun {
-            family,
-            trial,
-            about: draw.scene.description,
-            speed: draw.speed,
-            passed,
-            violations: reasons,
-            result,
-        };
+        let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
             report_run(&run);
         }
@@ -200,18 +191,11 @@ fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>
 }
 
 fn report_run(run: &FamilyRun) {
-    let FamilyRun { family, trial, about, speed, violations, .. } = run;
+    let FamilyRun { family, trial, about, speed, result, .. } = run;
     let speed = 100.0 * speed;
-    let reasons = violations.join("; ");
+    let reasons = result.violations.join("; ");
     output::message(format_args!("{family}, trial {trial} ({about}, {speed:.0} cm/s): {reasons}"));
-}
-
-/// The description of a violation, with the `reason` of the outcome if there is one.
-fn reason(violation: &Violation, reason: Option<&str>) -> String {
-    match (violation, reason) {
-        (Violation::Outcome { found, .. }, Some(reason)) => format!("{found}: {reason}"),
-        _ => violation.to_string(),
-    }
+    report_dead_whiskers(&format!("{family}, trial {trial}"), result);
 }
 
 /// The counts of each family, at every speed and for all speeds together.

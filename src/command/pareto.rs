@@ -17,7 +17,7 @@ use crate::built_in::SCENARIOS;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, LoadError, Loaded};
 use crate::report::{pareto_page, pareto_picture, pareto_table};
-use crate::results::{Document, Ending};
+use crate::results::Document;
 use crate::study::pareto::{Pareto, Setting, measure};
 use crate::trial::check_world;
 
@@ -80,7 +80,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     }
     progress.finish();
     for (pareto, report) in measured.iter().zip(reports) {
-        for row in pareto.settings.iter().filter(|row| row.outcome != Ending::Completed) {
+        for row in pareto.settings.iter().filter(|row| !row.outcome.met_its_stop()) {
             let reason = row.reason.as_deref().unwrap_or("unknown reason");
             output::message(format_args!("{}: {}: {reason}", pareto.policy, row.setting));
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::failure::Failure;
 use super::options::Format;
 use super::output;
-use super::trials::{ReportFiles, make_directory, report_events};
+use super::trials::{ReportFiles, make_directory, report_events, report_violations};
 use crate::file::{CommandFiles, Output};
 use crate::report::{RunFigures, results_table, runs_page};
 use crate::results::RunResult;
@@ -50,9 +50,7 @@ impl Reports {
         for contract in finished.run.contracts.iter().filter(|contract| contract.violations > 0) {
             output::message(format_args!("{}: {contract}", trial.scene.name));
         }
-        for violation in &finished.violations {
-            output::message(format_args!("{}: {violation}", trial.scene.name));
-        }
+        report_violations(&trial.scene.name, finished);
         if let Some(files) = self.files.get_mut(index).and_then(Option::take) {
             let figures = files.write(trial, finished, &result)?;
             self.figures.push((figures, finished.violations.is_empty()));

@@ -134,7 +134,7 @@ impl RunOutputs {
         let finished = run_with_bar(trial, &mut watchers)?;
         #[cfg(feature = "live")]
         if let Some(page) = watchers.1.1 {
-            page.finish(&finished.run);
+            page.finish(&finished);
         }
         let written = Ok(());
         #[cfg(feature = "recording")]
@@ -166,7 +166,7 @@ fn recorder(prepared: &Prepared, file: Output) -> Result<(Output, Recorder), Fai
 #[cfg(feature = "recording")]
 fn write_recording(recording: Option<(Output, Recorder)>, finished: &TrialResult) -> Result<(), Failure> {
     let Some((file, recorder)) = recording else { return Ok(()) };
-    Ok(file.write(recorder.finish(&finished.run)?)?)
+    Ok(file.write(recorder.finish(finished)?)?)
 }
 
 #[cfg(feature = "render")]

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
-use super::trials::{calibrated, inputs, report_events};
+use super::trials::{calibrated, inputs, report_events, report_violations};
 use super::values::{parse_cases, parse_seed};
 use crate::catalogue::Entry;
 use crate::catalogue::common::SPEED;
@@ -282,9 +282,7 @@ pub(super) fn print_verdict(
     let Some(Failing { case, scenario, result, finished, faults, .. }) = failing else { return Ok(()) };
     output::message(format_args!("the simplest case that fails: {}", case.notable(&property.ranges)));
     report_events(result);
-    for violation in &finished.violations {
-        output::message(format_args!("{}: {violation}", result.scenario));
-    }
+    report_violations(&result.scenario, finished);
     output::diagnostics(source, faults);
     output::text(scenario)
 }

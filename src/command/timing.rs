@@ -12,7 +12,6 @@ use super::trials::{calibrated, say_calibrations};
 use super::values::parse_repeats;
 use crate::file::CommandFiles;
 use crate::report::timing_table;
-use crate::scene::Outcome;
 use crate::study::timing::{Timing, TimingRow};
 
 const EXAMPLE: &str = "Example:\n  vibrissa timing --repeats 5\n\nExit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -56,5 +55,5 @@ pub(super) fn timing(arguments: &TimingArguments) -> Result<Exit, Failure> {
         })
         .collect();
     output::documents(arguments.format, &rows, || [timing_table(&rows)])?;
-    Ok(if rows.iter().all(|row| row.outcome == Outcome::Completed) { Exit::Done } else { Exit::Unexpected })
+    Ok(if rows.iter().all(|row| row.outcome.met_its_stop()) { Exit::Done } else { Exit::Unexpected })
 }

@@ -15,7 +15,7 @@ use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::GivenMismatch;
 use crate::report::{RunFigures, retrieval_picture};
-use crate::results::{Collisions, Document, Failsafes, Inclination, RunResult};
+use crate::results::{Collisions, Document, Ending, Failsafes, Inclination, RunResult, WhiskerResponse};
 use crate::run::{Trace, Watcher};
 use crate::scene::{Outcome, Violation};
 use crate::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
@@ -81,7 +81,7 @@ fn refused(trial: &Trial, failure: Failure) -> Result<Finished, Failure> {
         _ => return Err(failure),
     };
     let result = trial.refused(reason);
-    let violation = Violation::Outcome { expected: Outcome::Completed, found: result.outcome };
+    let violation = Violation::Outcome { expected: Outcome::Completed, found: Outcome::Refused };
     Ok(Finished { result, violations: vec![violation], figures: None })
 }
 
@@ -233,12 +233,33 @@ pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
     path.into()
 }
 
+/// Names the whiskers that seem dead or insensitive.
+pub(super) fn report_dead_whiskers(scene: &str, result: &RunResult) {
+    for WhiskerResponse { whisker, bent_s, response, .. } in result.dead_whiskers() {
+        let percent = 100.0 * response.unwrap_or(0.0);
+        output::message(format_args!(
+            "{scene}: warning: {whisker} seems dead or insensitive: it was bent for {bent_s:.1} s, and its perceived bend \
+             changed by {percent:.0} % of the true one"
+        ));
+    }
+}
+
+/// Prints the expectations that a run did not meet. For a run that ended, the [events](report_events) have them.
+pub(super) fn report_violations(scene: &str, result: &TrialResult) {
+    if result.ending() != Ending::Ended {
+        for violation in &result.violations {
+            output::message(format_args!("{scene}: {violation}"));
+        }
+    }
+}
+
 /// Prints the notable events of a run.
 pub(super) fn report_events(result: &RunResult) {
-    let RunResult { scenario, outcome, reason, collisions, inclination, out_of_plane, .. } = result;
-    if let Some(reason) = reason {
-        output::message(format_args!("{scenario}: {outcome}: {reason}"));
+    let RunResult { scenario, outcome, collisions, inclination, out_of_plane, .. } = result;
+    if let Some(explanation) = result.explanation() {
+        output::message(format_args!("{scenario}: {outcome}: {explanation}"));
     }
+    report_dead_whiskers(scenario, result);
     if collisions.count > 0 {
         let Collisions { count, time_s, first_s, first_state, first_position_m } = collisions;
         let [x, y] = first_position_m.unwrap_or([f64::NAN; 2]);

@@ -55,7 +55,7 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
             let finished = run_printed(&trial.trial, &mut page, &watch)?;
             #[cfg(feature = "live")]
             if let Some(page) = page {
-                page.finish(&finished.run);
+                page.finish(&finished);
             }
             Ok(finished)
         };

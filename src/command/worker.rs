@@ -100,10 +100,7 @@ fn line(plan: &Plan, run: &SweepRun<'_>, arguments: &WorkerArguments) -> SweepLi
         Ok((finished, trial))
     });
     match finished {
-        Ok((finished, trial)) => {
-            let violations = finished.violations.iter().map(ToString::to_string).collect();
-            SweepLine::ran(run, trial.scene.description, violations, finished.result)
-        }
+        Ok((finished, trial)) => SweepLine::ran(run, trial.scene.description, finished.result),
         Err(failure) => SweepLine::refused(run, reason(&failure)),
     }
 }

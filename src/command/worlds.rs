@@ -14,7 +14,6 @@ use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::CommandFiles;
 use crate::load;
 use crate::report::worlds_table;
-use crate::results::Ending;
 use crate::scene::{Scene, WorldKind};
 use crate::study::worlds::{Simulation, compare_worlds};
 use crate::trial::{check_world, in_parallel};
@@ -75,7 +74,7 @@ pub(super) fn worlds(arguments: &WorldsArguments) -> Result<Exit, Failure> {
     });
     progress.finish();
     let rows = rows.into_iter().collect::<Result<Vec<_>, Failure>>()?.concat();
-    for row in rows.iter().filter(|row| row.outcome != Ending::Completed || row.stopped.is_some()) {
+    for row in rows.iter().filter(|row| !row.outcome.met_its_stop() || row.stopped.is_some()) {
         for reason in [&row.reason, &row.stopped].into_iter().flatten() {
             output::message(format_args!("{}, {}, {}: {reason}", row.scenario, row.policy, row.simulation));
         }

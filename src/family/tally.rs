@@ -25,7 +25,7 @@ impl FamilyTally {
     pub(crate) fn new(family: &'static str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
         let is_counted =
             |run: &&FamilyRun| run.family == family && speed.is_none_or(|speed| (run.speed - speed).abs() < 1e-9);
-        let figures = runs.iter().filter(is_counted).map(|run| Figures::new(&run.result, run.passed));
+        let figures = runs.iter().filter(is_counted).map(|run| Figures::new(&run.result));
         Self { family, speed, tally: Tally::new(figures) }
     }
 }

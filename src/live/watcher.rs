@@ -19,7 +19,9 @@ use super::shadow::Shadow;
 use crate::diagnostic::{Diagnostic, Source};
 use crate::inspect::Breakpoints;
 use crate::recording::RecordedFrame;
+use crate::results::Ending;
 use crate::run::{Run, Trace, Watcher};
+use crate::trial::TrialResult;
 
 /// Passes the ticks of a run on to the page, and makes the run wait where a user asked for it.
 pub struct LiveWatcher<'i> {
@@ -79,8 +81,17 @@ impl<'i> LiveWatcher<'i> {
         Ok((watcher, faults))
     }
 
-    /// Tells the page the outcome of the run.
-    pub fn finish(mut self, run: &Run) {
+    /// Tells the page the outcome of the run, and what is missing if it ended.
+    pub fn finish(mut self, result: &TrialResult) {
+        let metrics = self.frames.final_metrics(&result.run.trace);
+        let missing = result.violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+        let ending = result.ending();
+        let reason = if ending == Ending::Ended { Some(missing) } else { result.run.reason.clone() };
+        self.hub.finish(ending.name(), reason, metrics);
+    }
+
+    /// Tells the page how a run ended whose scenario is not known.
+    pub fn finish_unjudged(mut self, run: &Run) {
         let metrics = self.frames.final_metrics(&run.trace);
         self.hub.finish(run.outcome.name(), run.reason.clone(), metrics);
     }

@@ -17,8 +17,8 @@ use super::writer::Writer;
 use crate::diagnostic::Source;
 use crate::geometry::ContourSet;
 use crate::inspect::{Breakpoints, ExplainedControl};
-use crate::run::{Run, Trace, Watcher};
-use crate::trial::Trial;
+use crate::run::{Trace, Watcher};
+use crate::trial::{Trial, TrialResult};
 
 /// The number of ticks that the run passes on at once. A thread that waits for every tick would cost the run more.
 const BATCH: usize = 64;
@@ -64,7 +64,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError`] if the run had no tick, or if the recording cannot be encoded.
-    pub fn finish(mut self, run: &Run) -> Result<Vec<u8>, RecordError> {
+    pub fn finish(mut self, result: &TrialResult) -> Result<Vec<u8>, RecordError> {
         self.send();
         if let Some(failure) = self.failure {
             return Err(failure);
@@ -74,10 +74,10 @@ impl Recorder {
         drop(sender);
         let writer = handle.join().map_err(|_| RecordError::Thread("it panicked".to_owned()))??;
         let mut outcome = BTreeMap::from([
-            ("outcome".to_owned(), run.outcome.to_string()),
-            ("final_state".to_owned(), run.final_state.clone()),
+            ("outcome".to_owned(), result.ending().to_string()),
+            ("final_state".to_owned(), result.run.final_state.clone()),
         ]);
-        outcome.extend(run.reason.clone().map(|reason| ("reason".to_owned(), reason)));
+        outcome.extend(result.run.reason.clone().map(|reason| ("reason".to_owned(), reason)));
         writer.finish(outcome)
     }
 

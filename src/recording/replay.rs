@@ -115,7 +115,7 @@ mod tests {
         trial.world = WorldKind::QuasiStatic.into();
         let mut recorder = Recorder::new(&trial, &compiled.artifact, Some(source)).unwrap();
         let result = trial.run_watched(&mut recorder).unwrap();
-        RunRecording::read(recorder.finish(&result.run).unwrap().as_slice()).unwrap()
+        RunRecording::read(recorder.finish(&result).unwrap().as_slice()).unwrap()
     }
 
     #[test]

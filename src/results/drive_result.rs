@@ -38,6 +38,8 @@ pub struct FaultRecord {
 
 impl Document for DriveResult {
     const FORMAT: &'static str = "drive";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 impl DriveResult {

@@ -5,14 +5,18 @@ mod collisions;
 mod contract_result;
 mod document;
 mod drive_result;
+mod ending;
+mod failsafes;
 mod inclination;
 mod largest_error;
 mod rate;
+mod refused;
 mod replay_result;
 mod run_result;
 mod shown_value;
 mod tally;
 mod tick_line;
+mod whisker_response;
 mod wilson;
 
 pub use calibration_identity::{CalibrationIdentity, CalibrationKind};
@@ -20,15 +24,18 @@ pub use collisions::Collisions;
 pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};
 pub use drive_result::{DriveResult, FaultRecord};
+pub use ending::{Ending, unmet};
+pub use failsafes::Failsafes;
 pub use inclination::Inclination;
 pub use largest_error::LargestError;
 pub use rate::Rate;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub(crate) use run_result::marked;
 pub use run_result::{
-    Corners, ErrorMm, Failsafes, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity, OutOfPlane,
-    Passage, Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
+    Corners, ErrorMm, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity, OutOfPlane, Passage,
+    Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
 };
 pub use shown_value::{ShownNumber, ShownValue};
-pub use tally::{Ending, Figures, Tally, TipShares};
+pub use tally::{Figures, Rates, Tally, TipShares};
 pub use tick_line::{MessageLine, MessageValueLine, OutOfPlaneLine, PlotLine, TickLine, tick_lines};
+pub use whisker_response::WhiskerResponse;

@@ -4,13 +4,16 @@ use super::Document;
 use super::calibration_identity::CalibrationIdentity;
 use super::collisions::Collisions;
 use super::contract_result::ContractResult;
+use super::ending::{Ending, described, is_of_largest_error};
+use super::failsafes::Failsafes;
 use super::inclination::Inclination;
 use super::largest_error::LargestError;
+use super::whisker_response::WhiskerResponse;
 use serde::{Serialize, Serializer};
 
 use crate::mismatch::Mismatch;
 use crate::run::{Run, Trace};
-use crate::scene::Outcome;
+use crate::scene::Violation;
 use crate::score::{
     CornerFigures, CornerStatistics, Moments, OutOfPlaneFigures, RetrievalFigures, Score, StateShare, TipDistance,
 };
@@ -38,8 +41,12 @@ pub struct RunResult {
     /// The calibration of the array that control assumed. `None` for an array that is the assumed one, and that no
     /// calibration changes.
     pub calibration: Option<CalibrationIdentity>,
-    /// Outcome of the run.
-    pub outcome: Outcome,
+    /// Outcome of the run. `ended` means that it met its stop condition, but not all expectations of its scenario.
+    pub outcome: Ending,
+    /// Descriptions of the expectations that do not hold. Empty if all hold.
+    pub violations: Vec<String>,
+    /// True if all expectations hold but for a bound of the largest error.
+    pub passed_but_for_tips: bool,
     /// Reason of the outcome, such as the text of the policy's `Success` or `Failure`. `None` if a stop condition completed
     /// the run.
     pub reason: Option<String>,
@@ -98,6 +105,8 @@ pub struct RunResult {
     /// Angle between a shaft at its base and the surface that it follows, as perceived. `None` if no whisker recorded a
     /// contour.
     pub inclination: Option<Inclination>,
+    /// How perception followed the bends of each whisker.
+    pub whiskers: Vec<WhiskerResponse>,
     /// Wall time of a control tick.
     pub tick_us: TickUs,
     /// Hashes of the inputs of the run.
@@ -106,6 +115,8 @@ pub struct RunResult {
 
 impl Document for RunResult {
     const FORMAT: &'static str = "run";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 /// Names and hashes that identify a run.
@@ -220,20 +231,6 @@ pub struct MeanP95Max {
     pub max: f64,
 }
 
-/// Fallback transitions.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Failsafes {
-    /// Number of fallback transitions.
-    pub count: usize,
-    /// Time of the first one.
-    pub first_s: Option<f64>,
-    /// Name of the state that the first one left.
-    pub first_state: Option<String>,
-    /// Cause of the first one.
-    pub first_cause: Option<String>,
-}
-
 /// Retrievals of whiskers that had lost the object, by the baseline's definitions (section 5.2 of its report).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -327,54 +324,24 @@ impl RunResult {
         marked(&self.policy, self.true_tips)
     }
 
-    /// The result of a run that could not begin for this `reason`.
+    /// The reason of an outcome that is not `completed`: the expectations that do not hold of a run that ended, or why it
+    /// stopped before. `None` for a run that completed without a text of its policy.
     #[must_use]
-    pub fn refused(identity: Identity, reason: String) -> Self {
-        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
-        Self {
-            scenario,
-            policy,
-            true_tips,
-            world,
-            seed,
-            mismatch,
-            calibration,
-            outcome: Outcome::Refused,
-            reason: Some(reason),
-            final_state: String::new(),
-            sim_s: 0.0,
-            start_s: 0.0,
-            wall_s: 0.0,
-            realtime: None,
-            error_mm: ErrorMm { mean: None, std: None, p95: None, max: None, within_band: None, outliers: None, n: 0 },
-            largest_error: None,
-            tip_error_mm: None,
-            coverage: 0.0,
-            object_coverage: 0.0,
-            outline_coverages: Vec::new(),
-            out_of_reach: 0.0,
-            coverage_in_reach: 0.0,
-            passage: None,
-            hausdorff_mm: None,
-            failsafes: Failsafes::default(),
-            contracts: Vec::new(),
-            retrieval: None,
-            axis_mm: None,
-            corners: None,
-            states: Vec::new(),
-            path_m: 0.0,
-            path_ratio: 0.0,
-            collisions: Collisions::default(),
-            out_of_plane: None,
-            inclination: None,
-            tick_us: TickUs { mean: None, p99: None, max: None },
-            hash,
+    pub fn explanation(&self) -> Option<String> {
+        match self.outcome {
+            Ending::Ended => Some(self.violations.join("; ")),
+            _ => self.reason.clone(),
         }
     }
 
-    /// The result of `run` with this `score`.
+    /// The whiskers that seem dead or insensitive.
+    pub fn dead_whiskers(&self) -> impl Iterator<Item = &WhiskerResponse> {
+        self.whiskers.iter().filter(|whisker| whisker.seems_dead)
+    }
+
+    /// The result of `run` with this `score` and these `violations` of the scenario.
     #[must_use]
-    pub fn new(identity: Identity, run: &Run, score: &Score) -> Self {
+    pub fn new(identity: Identity, run: &Run, score: &Score, violations: &[Violation]) -> Self {
         let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
         let millimetres = |metres: f64| metres * 1e3;
         let microseconds = |seconds: f64| seconds * 1e6;
@@ -389,7 +356,9 @@ impl RunResult {
             seed,
             mismatch,
             calibration,
-            outcome: run.outcome,
+            outcome: Ending::new(run.outcome, violations),
+            violations: violations.iter().map(|violation| described(violation, run.reason.as_deref())).collect(),
+            passed_but_for_tips: violations.iter().all(is_of_largest_error),
             reason: run.reason.clone(),
             final_state: run.final_state.clone(),
             sim_s,
@@ -432,7 +401,7 @@ impl RunResult {
                 wall_coverage: passage.wall_coverage(),
             }),
             hausdorff_mm: score.hausdorff.map(millimetres),
-            failsafes: fallbacks(&run.trace),
+            failsafes: Failsafes::new(&run.trace),
             contracts: run.contracts.iter().map(ContractResult::new).collect(),
             retrieval: score.retrieval.as_ref().map(Retrieval::new),
             axis_mm: score.axis.map(|axis| MeanStd::new(Some(axis), 1e3)),
@@ -443,6 +412,7 @@ impl RunResult {
             collisions: Collisions::new(&score.collisions, &run.trace),
             out_of_plane: score.out_of_plane.map(|figures| OutOfPlane::new(&figures, &run.trace)),
             inclination: score.inclination.as_ref().map(|figures| Inclination::new(figures, &run.trace)),
+            whiskers: score.responses.iter().filter_map(|one| WhiskerResponse::new(one, &run.trace)).collect(),
             tick_us: TickUs {
                 mean: latency.map(|latency| microseconds(latency.mean)),
                 p99: latency.map(|latency| microseconds(latency.p99)),
@@ -525,20 +495,4 @@ impl MeanStd {
 
 fn shares<S: Serializer>(states: &[StateShare], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(states.iter().map(|StateShare { state, share }| (state, share)))
-}
-
-fn fallbacks(trace: &Trace) -> Failsafes {
-    let first = trace.fallbacks().next();
-    Failsafes {
-        count: trace.fallbacks().count(),
-        first_s: first.map(|(tick, _)| tick.time),
-        first_state: first.and_then(|(_, fallback)| trace.states.get(fallback.left).cloned()),
-        first_cause: first.map(|(_, fallback)| fallback.cause.to_string()),
-    }
-}
-
-impl Serialize for Outcome {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
 }

@@ -1,55 +1,8 @@
 //! Counts over many runs.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::RunResult;
-use crate::scene::Outcome;
-
-/// The outcome of one of many runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Ending {
-    /// The run reached its end.
-    Completed,
-    /// The run reached its time limit.
-    Timeout,
-    /// The run failed.
-    Failed,
-    /// The simulation cannot be trusted.
-    Diverged,
-    /// The process of the run crashed.
-    Crashed,
-    /// The run could not begin.
-    Refused,
-}
-
-impl Ending {
-    /// The name in results and tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Completed => "completed",
-            Self::Timeout => "timeout",
-            Self::Failed => "failed",
-            Self::Diverged => "diverged",
-            Self::Crashed => "crashed",
-            Self::Refused => "refused",
-        }
-    }
-}
-
-impl From<Outcome> for Ending {
-    fn from(outcome: Outcome) -> Self {
-        match outcome {
-            Outcome::Completed => Self::Completed,
-            Outcome::Timeout => Self::Timeout,
-            Outcome::Failed => Self::Failed,
-            Outcome::Diverged => Self::Diverged,
-            Outcome::Refused => Self::Refused,
-        }
-    }
-}
+use super::{Ending, Rate, RunResult};
 
 /// The figures of a run that are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +11,8 @@ pub struct Figures {
     pub ending: Ending,
     /// True if all expectations of its scenario hold.
     pub passed: bool,
+    /// True if all of them hold but for a bound of the largest error.
+    pub passed_but_for_tips: bool,
     /// True if the body touched something.
     pub collided: bool,
     /// Mean of its errors (mm).
@@ -111,12 +66,13 @@ impl std::iter::Sum for TipShares {
 }
 
 impl Figures {
-    /// The figures of a run. `passed` is true if its expectations hold.
+    /// The figures of a run.
     #[must_use]
-    pub fn new(result: &RunResult, passed: bool) -> Self {
+    pub fn new(result: &RunResult) -> Self {
         Self {
-            ending: result.outcome.into(),
-            passed,
+            ending: result.outcome,
+            passed: result.violations.is_empty(),
+            passed_but_for_tips: result.passed_but_for_tips,
             collided: result.collisions.count > 0,
             error_mean_mm: result.error_mm.mean,
             error_p95_mm: result.error_mm.p95,
@@ -125,17 +81,21 @@ impl Figures {
     }
 }
 
-/// Counts and mean errors over some runs.
+/// Counts, rates and mean errors over some runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Tally {
     /// Number of runs.
     pub runs: usize,
-    /// Number of completed runs.
+    /// Number of runs that met their stop condition, whether or not their expectations hold.
     pub completed: usize,
-    /// Number of completed runs whose expectations hold. Families expect that the object is traced and that the body
-    /// touches nothing.
+    /// Number of runs whose expectations hold. Families expect that the object is traced, that the body touches nothing,
+    /// and that no recorded tip is more than 2 mm off.
     pub passed: usize,
+    /// Number of runs whose expectations hold but for a bound of the largest error.
+    pub passed_but_for_tips: usize,
+    /// Number of runs that met their stop condition, but not all expectations.
+    pub ended: usize,
     /// Number of timeouts.
     pub timeout: usize,
     /// Number of failed runs.
@@ -148,6 +108,10 @@ pub struct Tally {
     pub refused: usize,
     /// Number of runs in which the body touched something.
     pub collided: usize,
+    /// Number of runs that took place and in which the body touched nothing.
+    pub collision_free: usize,
+    /// The rates behind some of these numbers. `None` without runs.
+    pub rates: Option<Rates>,
     /// Mean of the mean errors of the completed runs (mm).
     pub error_mean_mm: Option<f64>,
     /// Mean of the 95th percentiles of the errors of the completed runs (mm).
@@ -158,6 +122,20 @@ pub struct Tally {
     pub within_band: Option<f64>,
 }
 
+/// Rates with their 95 % intervals.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Rates {
+    /// Rate of runs that [pass](Tally::passed).
+    pub passed: Rate,
+    /// Rate of runs that pass [but for a tip](Tally::passed_but_for_tips).
+    pub passed_but_for_tips: Rate,
+    /// Rate of [completed](Tally::completed) runs.
+    pub completed: Rate,
+    /// Rate of [collision-free](Tally::collision_free) runs.
+    pub collision_free: Rate,
+}
+
 impl Tally {
     /// Counts some runs.
     #[must_use]
@@ -166,22 +144,39 @@ impl Tally {
         let count = |counts: &dyn Fn(&Figures) -> bool| runs.iter().filter(|run| counts(run)).count();
         let ended = |ending| count(&|run| run.ending == ending);
         let tips: TipShares = runs.iter().map(|run| run.tips).sum();
-        let completed = || runs.iter().filter(|run| run.ending == Ending::Completed);
-        Self {
+        let completed = || runs.iter().filter(|run| run.ending.met_its_stop());
+        let tally = Self {
             runs: runs.len(),
-            completed: ended(Ending::Completed),
+            completed: completed().count(),
             passed: count(&|run| run.passed),
+            passed_but_for_tips: count(&|run| run.passed_but_for_tips),
+            ended: ended(Ending::Ended),
             timeout: ended(Ending::Timeout),
             failed: ended(Ending::Failed),
             diverged: ended(Ending::Diverged),
             crashed: ended(Ending::Crashed),
             refused: ended(Ending::Refused),
             collided: count(&|run| run.collided),
+            collision_free: count(&|run| !run.collided && run.ending.took_place()),
+            rates: None,
             error_mean_mm: mean(completed().filter_map(|run| run.error_mean_mm)),
             error_p95_mm: mean(completed().filter_map(|run| run.error_p95_mm)),
             outliers: tips.outlier_share(),
             within_band: tips.within_band_share(),
-        }
+        };
+        Self { rates: Rates::of(&tally), ..tally }
+    }
+}
+
+impl Rates {
+    fn of(tally: &Tally) -> Option<Self> {
+        let rate = |count| Rate::new(count, tally.runs);
+        Some(Self {
+            passed: rate(tally.passed)?,
+            passed_but_for_tips: rate(tally.passed_but_for_tips)?,
+            completed: rate(tally.completed)?,
+            collision_free: rate(tally.collision_free)?,
+        })
     }
 }
 

@@ -4,13 +4,31 @@ use super::fields::Fields;
 use super::key::Key;
 use super::node::Entry;
 use super::reader::Reader;
-use crate::scene::{Expectation, Metric, Outcome};
+use crate::scene::{Expectation, Metric, Outcome, Stop};
 
-/// The expectation of a scenario without `expect`: its runs complete.
-pub(super) const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
+/// The expectation of every scenario without an outcome in `expect`: its runs complete.
+const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
+
+/// The smallest shares of an outline and of a tunnel's walls that are traced in a scenario without `expect`.
+const TRACED: (f64, f64) = (0.9, 0.85);
 
 /// The largest permitted bound of a number of events.
 const MAX_COUNT: u32 = 1_000_000;
+
+/// The expectations of a scenario without `expect`. A run that goes around an object or through a tunnel traces it, and the
+/// body touches nothing.
+pub(super) fn default(stop: Option<&Stop>) -> Vec<Expectation> {
+    let mut expectations = vec![COMPLETION];
+    let goals = stop.map_or([None; 2], |stop| {
+        let around = stop.loop_closed.map(|_| (Metric::ObjectCoverage, TRACED.0));
+        [around, stop.passed.map(|_| (Metric::WallCoverage, TRACED.1))]
+    });
+    for (metric, bound) in goals.into_iter().flatten() {
+        expectations.push(Expectation::Bound { metric, bound });
+        expectations.push(Expectation::Bound { metric: Metric::Collisions, bound: 0.0 });
+    }
+    expectations
+}
 
 /// Reads `expect`.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expectation>> {

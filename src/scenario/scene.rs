@@ -59,7 +59,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
     let stop = fields.required("stop", "{time: 120 s}").and_then(|entry| stop::read(reader, entry));
     let expect = match fields.entry("expect") {
         Some(entry) => expect::read(reader, entry),
-        None => Some(vec![expect::COMPLETION]),
+        None => Some(expect::default(stop.as_ref().map(|stop| &stop.value))),
     };
     let policy = match fields.entry("policy") {
         Some(entry) => file::reference(reader, &entry.value).map(Some),

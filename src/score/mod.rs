@@ -17,6 +17,7 @@ mod lipschitz;
 mod out_of_plane;
 mod passage;
 mod reach;
+mod response;
 mod retrieval;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod score;
@@ -38,6 +39,7 @@ pub use latency::Latency;
 pub use out_of_plane::{OutOfPlaneFigures, Slip};
 pub use passage::Passage;
 pub use reach::out_of_reach;
+pub use response::{BENT, BENT_TIME, LEAST_RESPONSE, Response, responses};
 pub use retrieval::{MarkPosition, Moments, Retrieval, RetrievalFigures, mark_positions, retrievals};
 pub use score::Score;
 pub use state_share::{StateShare, state_shares};

@@ -2,8 +2,8 @@
 
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
-    Passage, RetrievalFigures, StateShare, Tip, axis_error, body_path, coverage, hausdorff, object_coverage,
-    out_of_reach, outline_coverages, state_shares, tips,
+    Passage, Response, RetrievalFigures, StateShare, Tip, axis_error, body_path, coverage, hausdorff, object_coverage,
+    out_of_reach, outline_coverages, responses, state_shares, tips,
 };
 use crate::run::Run;
 use crate::scene::{Metric, Truth};
@@ -47,6 +47,8 @@ pub struct Score {
     pub out_of_plane: Option<OutOfPlaneFigures>,
     /// The inclination of whiskers. `None` if no whisker recorded a contour.
     pub inclination: Option<InclinationFigures>,
+    /// How perception followed the bends of whiskers.
+    pub responses: Vec<Response>,
     /// Wall time of the control ticks. `None` without ticks.
     pub latency: Option<Latency>,
 }
@@ -78,6 +80,7 @@ impl Score {
             collisions: Collisions::of(&run.trace),
             out_of_plane: OutOfPlaneFigures::of(&run.trace),
             inclination: InclinationFigures::of(&run.trace, rig.sensing.friction),
+            responses: responses(&run.trace, rig),
             latency: Latency::of(&run.tick_times),
         }
     }

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use crate::results::Document;
-use crate::scene::Outcome;
+use crate::results::{Document, Ending};
 use crate::score::Statistics;
 use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 
@@ -11,7 +10,7 @@ use crate::trial::{ExecuteError, Trial, TrialResult, processor_time};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// Outcome of the run.
-    pub outcome: Outcome,
+    pub outcome: Ending,
     /// Simulated time (s).
     pub sim: f64,
     /// Wall time (s) from the compiled policy and the scene to the end of the first tick. It includes the world and the
@@ -32,15 +31,16 @@ impl Timing {
     /// [`ExecuteError`] if the run cannot begin.
     pub fn take(trial: &Trial) -> Result<Self, ExecuteError> {
         let start = processor_time();
-        let TrialResult { run, score, .. } = trial.run()?;
+        let result = trial.run()?;
         let processor = processor_time() - start;
+        let TrialResult { run, score, .. } = &result;
         Ok(Self {
-            outcome: run.outcome,
+            outcome: result.ending(),
             sim: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
             start: run.start.as_secs_f64(),
             processor,
-            tick_mean: score.latency.map(|latency| latency.mean),
-            tick_p99: score.latency.map(|latency| latency.p99),
+            tick_mean: score.latency.as_ref().map(|latency| latency.mean),
+            tick_p99: score.latency.as_ref().map(|latency| latency.p99),
         })
     }
 }
@@ -56,7 +56,7 @@ pub struct TimingRow {
     /// The world.
     pub world: String,
     /// Outcome of the runs.
-    pub outcome: Outcome,
+    pub outcome: Ending,
     /// Number of runs.
     pub runs: usize,
     /// Simulated time.
@@ -75,6 +75,8 @@ pub struct TimingRow {
 
 impl Document for TimingRow {
     const FORMAT: &'static str = "timing";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 /// Time of a control tick (µs): perception, policy and motion.

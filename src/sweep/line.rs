@@ -30,6 +30,8 @@ pub(crate) struct SweepLine {
 
 impl Document for SweepLine {
     const FORMAT: &'static str = "sweep-run";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 /// The end of a run.
@@ -39,8 +41,6 @@ impl Document for SweepLine {
 enum End {
     Result {
         about: String,
-        /// Descriptions of what did not hold. Empty if the run passed.
-        violations: Vec<String>,
         #[serde(flatten)]
         result: Box<RunResult>,
     },
@@ -52,10 +52,10 @@ enum End {
 }
 
 impl SweepLine {
-    /// The line of a run that took place. `about` describes the scene. Without `violations` the run passed.
+    /// The line of a run that took place. `about` describes the scene.
     #[must_use]
-    pub(crate) fn ran(run: &SweepRun<'_>, about: String, violations: Vec<String>, result: RunResult) -> Self {
-        Self::new(run, violations.is_empty(), End::Result { about, violations, result: Box::new(result) })
+    pub(crate) fn ran(run: &SweepRun<'_>, about: String, result: RunResult) -> Self {
+        Self::new(run, result.violations.is_empty(), End::Result { about, result: Box::new(result) })
     }
 
     /// The line of a run that could not begin.
@@ -93,6 +93,8 @@ impl SweepLine {
 struct Counted {
     key: String,
     passed: bool,
+    #[serde(default)]
+    passed_but_for_tips: bool,
     outcome: Ending,
     error_mm: Option<Errors>,
     collisions: Option<Collisions>,
@@ -117,13 +119,14 @@ struct Collisions {
 /// # Errors
 /// If it is not the line of a run.
 pub(crate) fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
-    let Counted { key, passed, outcome: ending, error_mm, collisions } = serde_json::from_str(line)?;
+    let Counted { key, passed, passed_but_for_tips, outcome: ending, error_mm, collisions } =
+        serde_json::from_str(line)?;
     let collided = collisions.is_some_and(|collisions| collisions.count > 0);
     let tips = error_mm
         .as_ref()
         .map_or_else(TipShares::default, |errors| TipShares::of_run(errors.n, errors.outliers, errors.within_band));
     let (error_mean_mm, error_p95_mm) = error_mm.map_or((None, None), |errors| (errors.mean, errors.p95));
-    Ok((key, Figures { ending, passed, collided, error_mean_mm, error_p95_mm, tips }))
+    Ok((key, Figures { ending, passed, passed_but_for_tips, collided, error_mean_mm, error_p95_mm, tips }))
 }
 
 /// The calibration of a run, read from its line.

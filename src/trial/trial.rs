@@ -14,7 +14,7 @@ use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
-use crate::results::{CalibrationIdentity, Hashes, Identity, MismatchIdentity, RunResult, policy_label};
+use crate::results::{CalibrationIdentity, Ending, Hashes, Identity, MismatchIdentity, RunResult, policy_label, unmet};
 use crate::run::{Progress, Run, SteppedRun, Trace, Watcher, drive};
 use crate::scene::{Scene, Violation, WorldSetup};
 use crate::score::Score;
@@ -76,6 +76,14 @@ pub struct TrialResult {
     pub score: Score,
     /// The expectations of the scene that do not hold.
     pub violations: Vec<Violation>,
+}
+
+impl TrialResult {
+    /// The outcome, judged by the expectations of the scene.
+    #[must_use]
+    pub fn ending(&self) -> Ending {
+        Ending::new(self.run.outcome, &self.violations)
+    }
 }
 
 impl Trial {
@@ -184,17 +192,14 @@ impl Trial {
     #[must_use]
     pub fn scored(&self, run: Run) -> TrialResult {
         let score = Score::new(&run, &self.scene.truth, &self.true_rig());
-        let expectations = self.scene.expect.iter();
-        let violations = expectations.filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));
-        let violated = run.contracts.iter().filter(|contract| contract.violations > 0).count();
-        let violations = violations.chain((violated > 0).then_some(Violation::Contracts { violated })).collect();
+        let violations = unmet(&self.scene.expect, &run, &score);
         TrialResult { run, score, violations }
     }
 
     /// The result as a JSON document.
     #[must_use]
     pub fn document(&self, result: &TrialResult) -> RunResult {
-        RunResult::new(self.identity(), &result.run, &result.score)
+        RunResult::new(self.identity(), &result.run, &result.score, &result.violations)
     }
 
     /// The JSON document of this trial if it cannot begin for a `reason`.

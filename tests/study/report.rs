@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Contour, Point2, circle};
 use vibrissa::report::{picture, results_table, retrieval_picture};
-use vibrissa::results::{Hashes, Identity, RunResult};
+use vibrissa::results::{Ending, Hashes, Identity, RunResult};
 use vibrissa::run::{MarkRecord, Run};
 use vibrissa::scenario;
 use vibrissa::scene::{Outcome, Scene};
@@ -28,7 +28,7 @@ fn half_round() -> Run {
 }
 
 fn result(run: &Run) -> RunResult {
-    RunResult::new(identity(), run, &Score::new(run, &disk().into(), &Rig::default()))
+    RunResult::new(identity(), run, &Score::new(run, &disk().into(), &Rig::default()), &[])
 }
 
 fn identity() -> Identity {
@@ -121,7 +121,8 @@ fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
     run.trace.ticks[9].body_touches = true;
     let mut square = result(&run);
     let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
-    square.corners = RunResult::new(identity(), &run, &Score::new(&run, &outline.into(), &Rig::default())).corners;
+    let score = Score::new(&run, &outline.into(), &Rig::default());
+    square.corners = RunResult::new(identity(), &run, &score, &[]).corners;
     let full = results_table(&[result(&half_round()), square]).wide();
     assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval"), "{full}");
 }
@@ -138,7 +139,7 @@ fn figures_that_are_no_numbers_are_null() {
 fn a_table_has_a_line_a_run() {
     let mut lost = result(&run_with(&[]));
     lost.scenario = "rounded rectangle".to_owned();
-    lost.outcome = Outcome::Failed;
+    lost.outcome = Ending::Failed;
     lost.realtime = None;
     snapshots("report")
         .bind(|| insta::assert_snapshot!("table", results_table(&[result(&half_round()), lost]).fitted()));

@@ -53,10 +53,10 @@ impl Result {
 
 #[pymethods]
 impl Result {
-    /// `completed`, `timeout`, `failed` or `diverged`.
+    /// `completed`, `ended`, `timeout`, `failed` or `diverged`. `ended` means that some `violations` are left.
     #[getter]
     fn outcome(&self) -> &'static str {
-        self.scored.run.outcome.name()
+        self.scored.ending().name()
     }
 
     /// The reason of the outcome. `None` if a stop condition completed the run.

@@ -49,7 +49,8 @@ def test_an_agent_that_follows_the_surface_is_rewarded_with_the_traced_length():
     cost = vibrissa.gym.TOUCH_COST * round(figures["collisions"]["time_s"] * 30)
     assert figures["coverage"] > 0.5
     assert total == pytest.approx(vibrissa.gym.TRACED_PER_M * traced - cost, abs=1.0)
-    assert terminated == (figures["outcome"] in ("completed", "failed"))
+    assert terminated == (figures["outcome"] in ("completed", "ended", "failed"))
+    assert info["outcome"] == figures["outcome"]
     assert environment.render().startswith("<svg")
 
 

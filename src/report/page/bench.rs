@@ -7,7 +7,7 @@ use super::document::page;
 use super::run::{PageRun, RunFigures, address, overview, section};
 use super::table::{Judgement, PageCell, PageTable};
 use crate::report::tables::bench::{HEADINGS, NAMES, cells};
-use crate::scene::Outcome;
+use crate::results::Ending;
 use crate::study::bench::{BenchRow, Verdict};
 use crate::study::compare::Changes;
 
@@ -28,7 +28,7 @@ pub fn bench_page(rows: &[BenchRow], figures: &[RunFigures], changes: Option<&Ch
     let introduction = html! {
         p.lead { (passed) " of " (rows.len()) " runs passed." }
         p {
-            "A run passes if it completes, all expectations of its scenario hold, and no figure is worse than the baseline's. Figures are mean ± sample \
+            "A run completes if it meets its stop condition and all expectations of its scenario hold. If some do not hold, it has ended. A run passes if it completes and no figure is worse than the baseline's. Figures are mean ± sample \
              standard deviation. The baseline has neither friction nor noise. A run with friction, noise or a mismatch only has to complete."
         }
     };
@@ -43,7 +43,7 @@ pub fn bench_page(rows: &[BenchRow], figures: &[RunFigures], changes: Option<&Ch
 
 fn table(rows: &[BenchRow]) -> PageTable {
     let row = |row: &BenchRow| {
-        let failed = row.result.outcome != Outcome::Completed;
+        let failed = row.result.outcome != Ending::Completed;
         let cells = cells(row).into_iter().enumerate().map(|(column, (text, verdict))| {
             let judgement = match verdict {
                 Some(Verdict::Better) => Some(Judgement::Better),

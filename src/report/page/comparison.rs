@@ -38,7 +38,7 @@ pub fn comparison_page(comparison: &Comparison) -> String {
         }
         section {
             h2 { "Figures" }
-            p { "The figure " code { "completed" } " is over all runs, and every other one is over the runs that both policies completed." }
+            p { "The figure " code { "completed" } " is over all runs, and every other one is over the runs in which both policies met the stop condition." }
             (figures.markup())
         }
         section { h2 { "Runs" } (PageTable::new("runs", &runs).markup()) }

@@ -7,9 +7,9 @@ use super::figure::{figure, namespaced};
 use crate::report::number::millimetres;
 use crate::report::picture::{PlottedRun, colour_of, histogram, plotted, state_band};
 use crate::report::style;
-use crate::results::{LargestError, RunResult};
+use crate::results::{Ending, LargestError, RunResult};
 use crate::run::{Run, Trace};
-use crate::scene::{Outcome, Scene};
+use crate::scene::Scene;
 use crate::score::Score;
 
 /// The figures of a run for a page. They are small, while the trace of a run is large.
@@ -194,13 +194,15 @@ fn link(index: usize, run: &PageRun<'_>) -> Markup {
 
 /// The reason why a run did not pass.
 fn reason(run: &PageRun<'_>) -> String {
-    let RunResult { outcome, reason, collisions, .. } = run.result;
-    let reason = reason.as_deref().map_or_else(String::new, |reason| format!(": {reason}"));
-    match (outcome, collisions.count) {
-        (Outcome::Completed, 0) => "completed, but a figure or an expectation is not met".to_owned(),
-        (Outcome::Completed, count) => format!("completed with {count} collisions"),
-        (outcome, _) => format!("{outcome}{reason}"),
+    match run.result.outcome {
+        Ending::Completed => "completed, but a figure is worse than the baseline's".to_owned(),
+        outcome => with_explanation(outcome, run.result),
     }
+}
+
+/// The outcome with its explanation.
+fn with_explanation(outcome: Ending, result: &RunResult) -> String {
+    result.explanation().map_or_else(|| outcome.to_string(), |explanation| format!("{outcome}: {explanation}"))
 }
 
 /// The band of a run on a lane of the length `longest` (s).
@@ -227,7 +229,7 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
         section.run id=(format!("run{index}")) {
             h2 { (scene) ", " (policy) }
             p class=(if *passed { "outcome" } else { "outcome worse" }) {
-                (result.outcome) @if let Some(reason) = &result.reason { ": " (reason) }
+                (with_explanation(result.outcome, result))
                 " · coverage " (format!("{:.1} %", 100.0 * result.coverage))
                 " · collisions " (result.collisions.count)
                 " · " (format!("{:.1} s", result.sim_s)) " simulated"

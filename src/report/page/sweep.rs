@@ -159,8 +159,8 @@ struct Measure {
 const MEASURES: [Measure; 3] = [
     Measure {
         name: "passed",
-        text: |tally| percent(tally.passed as f64 / tally.runs.max(1) as f64, 0),
-        of: |tally| Some(1.0 - tally.passed as f64 / tally.runs.max(1) as f64),
+        text: |tally| tally.rates.map_or_else(|| NONE.to_owned(), |rates| percent(rates.passed.share, 0)),
+        of: |tally| tally.rates.map(|rates| 1.0 - rates.passed.share),
         is_logarithmic: false,
     },
     Measure {
@@ -301,6 +301,7 @@ mod tests {
         let run = |passed| Figures {
             ending: Ending::Completed,
             passed,
+            passed_but_for_tips: passed,
             collided: false,
             error_mean_mm: Some(0.02),
             error_p95_mm: Some(0.05),

@@ -33,8 +33,9 @@ use self::timeline::Timeline;
 use super::shade::{define, shades};
 use super::style::{self, Anchor, text};
 use crate::geometry::Contour;
+use crate::results::{Ending, unmet};
 use crate::run::{Run, Trace};
-use crate::scene::{Outcome, Scene};
+use crate::scene::Scene;
 use crate::score::{COVERAGE_RESOLUTION, Estimate, Score, tips, traced};
 
 /// Width of the picture (px).
@@ -72,7 +73,11 @@ pub(super) fn plotted(scene: &Scene, policy: &str, run: &Run, score: &Score) -> 
     let trace = &run.trace;
     let tips = tips(trace, &scene.truth.surfaces, &scene.rig);
     let untraced = untraced(scene, trace);
-    let (head, map_top) = heading(scene, policy, run);
+    let violations = unmet(&scene.expect, run, score);
+    let ending = Ending::new(run.outcome, &violations);
+    let missing =
+        if ending == Ending::Ended { violations.iter().map(ToString::to_string).collect() } else { Vec::new() };
+    let (head, map_top) = heading(scene, policy, ending, missing.iter().chain(&run.reason));
     let marks = if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };
     let tunnel = if scene.truth.axes.is_empty() { 0.0 } else { TUNNEL_HEIGHT };
     let least = MAP_HEIGHT.0 + marks + tunnel;
@@ -82,7 +87,7 @@ pub(super) fn plotted(scene: &Scene, policy: &str, run: &Run, score: &Score) -> 
     let strips_top = map_top + map.height + 62.0;
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);
     let height = bottom + 20.0;
-    let mut document = style::sheet((WIDTH, height), &format!("{}, policy {policy}: {}", scene.name, run.outcome));
+    let mut document = style::sheet((WIDTH, height), &format!("{}, policy {policy}: {ending}", scene.name));
     let shades = shades(&trace.parents);
     let shown = trace.ticks.iter().filter_map(|tick| shades.get(tick.state?).copied());
     document = define(document, shown);
@@ -111,18 +116,23 @@ fn untraced<'s>(scene: &'s Scene, trace: &Trace) -> Vec<Untraced<'s>> {
     scene.truth.reference.contours().map(of_contour).filter(|untraced| !untraced.stretches.is_empty()).collect()
 }
 
-/// The title with a description of the run, and the upper side of the map.
-fn heading(scene: &Scene, policy: &str, run: &Run) -> (Vec<Text>, f64) {
+/// The title with the outcome of the run and its `reasons`, and the upper side of the map.
+fn heading<'r>(
+    scene: &Scene,
+    policy: &str,
+    ending: Ending,
+    reasons: impl Iterator<Item = &'r String>,
+) -> (Vec<Text>, f64) {
     let left = SIDES.0;
-    let colour = if run.outcome == Outcome::Completed { style::INK } else { style::ALARM };
-    let outcome = TSpan::new(run.outcome.name()).set("fill", colour).set("font-weight", 600);
+    let colour = if ending == Ending::Completed { style::INK } else { style::ALARM };
+    let outcome = TSpan::new(ending.name()).set("fill", colour).set("font-weight", 600);
     let policy = format!("policy {policy} · ");
     let mut lines = vec![
         text(left, 40.0, Anchor::Start, 22.0, style::INK, &scene.name).set("font-weight", 600),
         text(left, 64.0, Anchor::Start, 14.0, style::GREY, &policy).add(outcome),
     ];
     let mut y = 64.0;
-    for line in run.reason.iter().flat_map(|reason| wrapped(reason)) {
+    for line in reasons.flat_map(|reason| wrapped(reason)) {
         y += 20.0;
         lines.push(text(left, y, Anchor::Start, 14.0, colour, &line));
     }

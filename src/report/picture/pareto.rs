@@ -27,14 +27,14 @@ pub fn pareto_picture(pareto: &Pareto) -> String {
 fn point(row: &ParetoRow) -> Option<FrontPoint> {
     let cost = row.relative_time.filter(|time| *time > 0.0)?;
     let error = |error: Option<f64>, on: bool, on_of_world: bool| {
-        error.filter(|error| *error > 0.0 && row.completed()).map(|error| (error, on, on_of_world))
+        error.filter(|error| *error > 0.0 && row.met_its_stop()).map(|error| (error, on, on_of_world))
     };
     let (on, of_world) = (row.on_front, row.on_front_of_world);
     let errors = [
         error(row.error_mm, on.exact, of_world.exact),
         error(row.fine_mm, on.fine, of_world.fine),
-        error(row.completed_mismatched_mm(), on.mismatched, of_world.mismatched),
+        error(row.usable_mismatched_mm(), on.mismatched, of_world.mismatched),
     ];
     let kind = AXES.iter().position(|axis| *axis == row.axis).unwrap_or(AXES.len() - 1);
-    row.completed().then(|| FrontPoint { name: row.setting.clone(), kind, cost, errors })
+    row.met_its_stop().then(|| FrontPoint { name: row.setting.clone(), kind, cost, errors })
 }

@@ -2,6 +2,7 @@
 
 use super::super::number::{mean_std, millimetres};
 use super::super::table::{NONE, Table, percent};
+use super::results::dead_whiskers;
 use crate::results::TipShares;
 use crate::study::bench::{BenchRow, Verdict};
 
@@ -9,7 +10,7 @@ use crate::study::bench::{BenchRow, Verdict};
 pub(in crate::report) const NAMES: usize = 4;
 
 /// The headings of the table's columns.
-pub(in crate::report) const HEADINGS: [&str; 21] = [
+pub(in crate::report) const HEADINGS: [&str; 22] = [
     "scene",
     "policy",
     "outcome",
@@ -23,6 +24,7 @@ pub(in crate::report) const HEADINGS: [&str; 21] = [
     "axis mm",
     "baseline: axis mm",
     "collisions",
+    "seem dead",
     "wall coverage",
     "in 95 % interval",
     "corners",
@@ -66,7 +68,7 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
 }
 
 /// The cells of a row, with the verdict on each figure that the baseline reports.
-pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21] {
+pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 22] {
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
     let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
@@ -93,6 +95,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 21
         axis,
         baseline_axis,
         plain(Some(result.collisions.count.to_string())),
+        plain(dead_whiskers(result)),
         plain(result.passage.map(|passage| percent(passage.wall_coverage, 1))),
         plain(result.error_mm.within_band.map(|share| percent(share, 1))),
         plain(corners.map(|corners| format!("{} of {}", corners.traced, corners.count))),

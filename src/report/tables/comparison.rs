@@ -1,19 +1,19 @@
 //! A comparison as tables.
 
+use super::super::number::{RATES, rate};
 use super::super::table::{NONE, Table};
 use crate::study::compare::{Comparison, Outlook};
 
 const HEADINGS: [&str; 9] =
     ["figure", "policy", "verdict", "mean", "first", "difference", "95 % interval", "wins", "pairs"];
 
-/// A comparison as two tables: the numbers of runs that did not complete, and the figures with their differences from
+/// A comparison as two tables: the rates of runs that completed and that were collision-free, and the figures with their differences from
 /// the first policy.
 #[must_use]
 pub fn comparison_tables(comparison: &Comparison) -> [Table; 2] {
-    let runs = comparison
-        .policies
-        .iter()
-        .map(|policy| vec![policy.policy.clone(), policy.runs.to_string(), policy.incomplete.len().to_string()]);
+    let runs = comparison.policies.iter().map(|policy| {
+        vec![policy.policy.clone(), policy.runs.to_string(), rate(policy.completed), rate(policy.collision_free)]
+    });
     let figures = comparison.figures.iter().map(|figure| {
         let interval = figure
             .difference
@@ -39,9 +39,10 @@ pub fn comparison_tables(comparison: &Comparison) -> [Table; 2] {
     });
     let first = comparison.policies.first().map_or(NONE, |first| &first.policy);
     [
-        Table::new(1, ["policy", "runs", "not completed"], runs),
-        Table::new(3, HEADINGS, figures)
-            .under(format!("Against {first}: `completed` over all runs, the rest over the runs that both completed")),
+        Table::new(1, ["policy", "runs", "completed %", "collision-free %"], runs).under(RATES),
+        Table::new(3, HEADINGS, figures).under(format!(
+            "Against {first}: `completed` over all runs, the rest over the runs in which both met the stop condition"
+        )),
     ]
 }
 

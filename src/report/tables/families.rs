@@ -1,5 +1,6 @@
 //! Families as a table.
 
+use super::super::number::RATES;
 use super::super::table::Table;
 use super::tally;
 use crate::family::FamilyTally;
@@ -9,7 +10,7 @@ use crate::family::FamilyTally;
 #[must_use]
 pub(crate) fn families_table(tallies: &[FamilyTally]) -> Table {
     let headings = ["family", "cm/s"].into_iter().chain(tally::HEADINGS);
-    Table::new(2, headings, tallies.iter().map(cells))
+    Table::new(2, headings, tallies.iter().map(cells)).under(RATES)
 }
 
 fn cells(FamilyTally { family, speed, tally }: &FamilyTally) -> Vec<String> {

@@ -1,7 +1,6 @@
 //! Settings as a table.
 
 use super::super::table::{NONE, Table};
-use crate::results::Ending;
 use crate::study::pareto::{Front, Pareto, ParetoRow};
 
 const HEADINGS: [&str; 11] = [
@@ -37,11 +36,11 @@ fn cells(row: &ParetoRow) -> Vec<String> {
     let error = |error: f64| format!("{error:.4}");
     let [least, greatest] = [0, 1].map(|end| row.relative_time_range.map(|range| range[end]));
     let (front, front_of_world) = match row.outcome {
-        Ending::Completed => (names(row.on_front), names(row.on_front_of_world)),
+        ending if ending.met_its_stop() => (names(row.on_front), names(row.on_front_of_world)),
         ending => (ending.name().to_owned(), String::new()),
     };
     let mismatched = match row.mismatched_outcome {
-        Ending::Completed => shown(row.mismatched_mm, &error),
+        ending if ending.met_its_stop() => shown(row.mismatched_mm, &error),
         ending => ending.name().to_owned(),
     };
     vec![

@@ -8,7 +8,7 @@ use crate::results::{Inclination, MeanStd, RunResult};
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
-const COLUMNS: [Column; 27] = [
+const COLUMNS: [Column; 28] = [
     ("scene", |result| Some(result.scenario.clone()), true),
     ("policy", |result| Some(result.policy_label()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
@@ -20,6 +20,7 @@ const COLUMNS: [Column; 27] = [
     ("wall coverage", |result| Some(percent(result.passage?.wall_coverage, 1)), false),
     ("coverage of outlines", |result| outlines(&result.outline_coverages), false),
     ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
+    ("seem dead", |result| dead_whiskers(result), false),
     ("out of plane mm", |result| Some(millimetres(result.out_of_plane.as_ref()?.max_mm)), false),
     ("slips", |result| Some(result.out_of_plane.as_ref()?.slips.to_string()), false),
     ("farthest untraced mm", |result| result.hausdorff_mm.map(millimetres), true),
@@ -56,6 +57,12 @@ fn mean_with_std(figure: MeanStd) -> Option<String> {
 /// The coverage of each outline, if there are several.
 fn outlines(coverages: &[f64]) -> Option<String> {
     (coverages.len() > 1).then(|| coverages.iter().map(|&coverage| percent(coverage, 1)).collect::<Vec<_>>().join(", "))
+}
+
+/// The whiskers that seem dead or insensitive, if there are any.
+pub(super) fn dead_whiskers(result: &RunResult) -> Option<String> {
+    let names: Vec<_> = result.dead_whiskers().map(|whisker| whisker.whisker.as_str()).collect();
+    (!names.is_empty()).then(|| names.join(", "))
 }
 
 /// The time beyond the limit of the inclination, if there is any.

@@ -1,5 +1,6 @@
 //! The summary of a sweep as a table.
 
+use super::super::number::RATES;
 use super::super::table::Table;
 use super::tally;
 use crate::results::Tally;
@@ -24,5 +25,5 @@ pub(crate) fn summary_table(groups: &[SweepGroup]) -> Table {
         let names = std::iter::once(scenes.clone()).chain(settings.values().cloned()).chain([policy.clone()]);
         names.chain(tally::cells(tally)).chain(columns.iter().map(|(_, count)| count(tally).to_string())).collect()
     };
-    Table::new(2 + settings.len(), headings, groups.iter().map(cells))
+    Table::new(2 + settings.len(), headings, groups.iter().map(cells)).under(RATES)
 }

@@ -1,18 +1,20 @@
 //! The cells of a tally, which several tables share.
 
-use super::super::number::millimetres;
+use super::super::number::{millimetres, rate};
 use super::super::table::{NONE, percent};
 use crate::results::Tally;
 
 /// The headings of the cells.
-pub(super) const HEADINGS: [&str; 11] = [
+pub(super) const HEADINGS: [&str; 13] = [
     "runs",
-    "passed",
-    "completed",
-    "collided",
+    "passed %",
+    "completed %",
+    "collision-free %",
+    "passed but for tips %",
     "error mm",
     "outliers",
     "in 95 % interval",
+    "collided",
     "timeout",
     "failed",
     "diverged",
@@ -20,18 +22,20 @@ pub(super) const HEADINGS: [&str; 11] = [
 ];
 
 /// The cells under the headings.
-pub(super) fn cells(tally: &Tally) -> [String; 11] {
-    let share = |count: usize| percent(count as f64 / tally.runs as f64, 1);
+pub(super) fn cells(tally: &Tally) -> [String; 13] {
     let share_of = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
     let figure = |figure: Option<f64>| figure.map_or_else(|| NONE.to_owned(), millimetres);
+    let rates = tally.rates.as_ref();
     [
         tally.runs.to_string(),
-        share(tally.passed),
-        share(tally.completed),
-        tally.collided.to_string(),
+        rate(rates.map(|rates| rates.passed)),
+        rate(rates.map(|rates| rates.completed)),
+        rate(rates.map(|rates| rates.collision_free)),
+        rate(rates.map(|rates| rates.passed_but_for_tips)),
         figure(tally.error_mean_mm),
         share_of(tally.outliers, 2),
         share_of(tally.within_band, 1),
+        tally.collided.to_string(),
         tally.timeout.to_string(),
         tally.failed.to_string(),
         tally.diverged.to_string(),

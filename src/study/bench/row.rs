@@ -3,8 +3,7 @@
 use crate::results::Document;
 use serde::Serialize;
 
-use crate::results::{MeanStd, RunResult};
-use crate::scene::Outcome;
+use crate::results::{Ending, MeanStd, RunResult};
 
 use super::baseline::{BaselineFigures, Reported, baseline_figures};
 use super::conditions::Conditions;
@@ -21,7 +20,7 @@ pub enum Verdict {
 }
 
 /// The verdicts on the figures that the baseline reports of a scene. `None` for other figures, and for all figures of a
-/// run that did not complete.
+/// run that did not meet its stop condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Verdicts {
@@ -46,7 +45,7 @@ pub struct BenchRow {
     pub baseline: Option<BaselineFigures>,
     /// The verdicts.
     pub verdicts: Verdicts,
-    /// True if the run completed, no figure is worse than the baseline's, and all expectations hold. With friction,
+    /// True if the run completed, so that all expectations hold, and no figure is worse than the baseline's. With friction,
     /// noise or a mismatch, a completed run suffices.
     pub passed: bool,
 }
@@ -54,16 +53,17 @@ pub struct BenchRow {
 impl Document for BenchRow {
     const FORMAT: &'static str = "bench";
     // The key of the baseline's figures was `thesis`.
-    const VERSION: u32 = 2;
+    // In version 2, a run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 3;
 }
 
 impl BenchRow {
-    /// The row of a run. `holds` is true if all expectations of its scenario hold.
+    /// The row of a run.
     #[must_use]
-    pub fn new(result: RunResult, holds: bool) -> Self {
+    pub fn new(result: RunResult) -> Self {
         let baseline = baseline_figures(&result.scenario).copied();
-        let completed = result.outcome == Outcome::Completed;
-        let verdict = |reported, found| verdict(reported, found).filter(|_| completed);
+        let met_its_stop = result.outcome.met_its_stop();
+        let verdict = |reported, found| verdict(reported, found).filter(|_| met_its_stop);
         let radius = result.retrieval.and_then(|retrieval| retrieval.radius_mm.mean);
         let axis = result.axis_mm.and_then(|axis| axis.mean);
         let verdicts = Verdicts {
@@ -73,7 +73,8 @@ impl BenchRow {
             axis_mm: verdict(baseline.and_then(|baseline| baseline.axis_mm), axis),
         };
         let all = [verdicts.error_mm, verdicts.radius_mm, verdicts.axis_mm];
-        let passed = completed && holds && !all.contains(&Some(Verdict::Worse));
+        let passed =
+            result.outcome == Ending::Completed && result.violations.is_empty() && !all.contains(&Some(Verdict::Worse));
         Self { result, conditions: Conditions::default(), baseline, verdicts, passed }
     }
 
@@ -81,7 +82,7 @@ impl BenchRow {
     #[must_use]
     pub fn under(self, conditions: Conditions) -> Self {
         let row = Self { conditions, ..self };
-        let passed = if row.is_ideal() { row.passed } else { row.result.outcome == Outcome::Completed };
+        let passed = if row.is_ideal() { row.passed } else { row.result.outcome == Ending::Completed };
         Self { passed, ..row }
     }
 

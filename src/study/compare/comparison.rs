@@ -3,8 +3,7 @@
 use crate::results::Document;
 use serde::Serialize;
 
-use crate::results::RunResult;
-use crate::scene::Outcome;
+use crate::results::{Ending, Rate, RunResult};
 
 use super::difference::FigureComparison;
 use super::figure::FIGURES;
@@ -21,6 +20,8 @@ pub struct Comparison {
 
 impl Document for Comparison {
     const FORMAT: &'static str = "comparison";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 /// The runs of one policy.
@@ -31,8 +32,13 @@ pub struct PolicyRuns {
     pub policy: String,
     /// Number of runs.
     pub runs: usize,
-    /// The runs that did not complete. Of their figures only `completed` counts, because the others of a shortened run
-    /// would mislead.
+    /// Rate of runs that completed: they met their stop condition and the expectations of their scenario. `None` without
+    /// runs.
+    pub completed: Option<Rate>,
+    /// Rate of runs in which the body touched nothing.
+    pub collision_free: Option<Rate>,
+    /// The runs that did not complete. If such a run did not meet its stop condition, only `completed` counts of its
+    /// figures, because the others of a shortened run would mislead.
     pub incomplete: Vec<Incomplete>,
 }
 
@@ -45,8 +51,8 @@ pub struct Incomplete {
     /// Seed of its noise and its start.
     pub seed: u64,
     /// The outcome.
-    pub outcome: Outcome,
-    /// The reason of the outcome.
+    pub outcome: Ending,
+    /// The reason of the outcome. Of a run that ended, the expectations that do not hold.
     pub reason: Option<String>,
 }
 
@@ -55,16 +61,21 @@ impl Comparison {
     #[must_use]
     pub fn new(policies: &[(String, Vec<RunResult>)]) -> Self {
         let runs = policies.iter().map(|(policy, results)| {
-            let incomplete = results.iter().filter(|result| result.outcome != Outcome::Completed);
+            let incomplete = results.iter().filter(|result| result.outcome != Ending::Completed);
+            let rate = |counts: fn(&RunResult) -> bool| {
+                Rate::new(results.iter().filter(|result| counts(result)).count(), results.len())
+            };
             PolicyRuns {
                 policy: policy.clone(),
                 runs: results.len(),
+                completed: rate(|result| result.outcome == Ending::Completed),
+                collision_free: rate(|result| result.collisions.count == 0),
                 incomplete: incomplete
                     .map(|result| Incomplete {
                         scenario: result.scenario.clone(),
                         seed: result.seed,
                         outcome: result.outcome,
-                        reason: result.reason.clone(),
+                        reason: result.explanation(),
                     })
                     .collect(),
             }
@@ -73,7 +84,7 @@ impl Comparison {
         let figures = policies.first().into_iter().flat_map(|(_, first)| {
             FIGURES.iter().flat_map(move |figure| {
                 others.iter().filter_map(move |(policy, results)| {
-                    let counts = |result: &RunResult| figure.of_every_run || result.outcome == Outcome::Completed;
+                    let counts = |result: &RunResult| figure.of_every_run || result.outcome.met_its_stop();
                     let both = first.iter().zip(results).filter(|(a, b)| counts(a) && counts(b));
                     let pairs = both.filter_map(|(a, b)| Some(((figure.of)(a)?, (figure.of)(b)?))).collect();
                     FigureComparison::new(figure, policy, pairs)

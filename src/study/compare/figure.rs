@@ -2,8 +2,7 @@
 
 use serde_json::Value;
 
-use crate::results::RunResult;
-use crate::scene::Outcome;
+use crate::results::{Ending, RunResult};
 
 /// A figure of a run by which policies are compared.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +15,7 @@ pub struct Figure {
     pointer: &'static str,
     /// True if larger values are better.
     pub larger_is_better: bool,
-    /// True if runs that did not complete have it too.
+    /// True if runs that did not meet their stop condition have it too.
     pub of_every_run: bool,
 }
 
@@ -24,14 +23,16 @@ impl Figure {
     /// Its value in the JSON document of a run. `None` if the run does not have it.
     pub(super) fn in_document(&self, run: &Value) -> Option<f64> {
         match run.pointer(self.pointer)? {
-            Value::String(outcome) => Some(f64::from(u8::from(outcome == Outcome::Completed.name()))),
+            Value::String(outcome) => Some(f64::from(u8::from(outcome == Ending::Completed.name()))),
             value => value.as_f64(),
         }
     }
 
-    /// True if a run in a JSON document counts for the figure. The other figures of a run that did not complete would mislead.
+    /// True if a run in a JSON document counts for the figure. The other figures of a run that did not meet its stop condition
+    /// would mislead.
     pub(super) fn counts_in(&self, run: &Value) -> bool {
-        self.of_every_run || run.get("outcome").is_some_and(|outcome| outcome == Outcome::Completed.name())
+        let is = |ending: Ending| run.get("outcome").is_some_and(|outcome| outcome == ending.name());
+        self.of_every_run || is(Ending::Completed) || is(Ending::Ended)
     }
 }
 
@@ -40,7 +41,7 @@ impl Figure {
 pub const FIGURES: [Figure; 17] = [
     Figure {
         of_every_run: true,
-        ..higher("completed", "/outcome", |result| Some(f64::from(u8::from(result.outcome == Outcome::Completed))))
+        ..higher("completed", "/outcome", |result| Some(f64::from(u8::from(result.outcome == Ending::Completed))))
     },
     lower("error_mm.mean", "/error_mm/mean", |result| result.error_mm.mean),
     lower("error_mm.p95", "/error_mm/p95", |result| result.error_mm.p95),

@@ -102,9 +102,10 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    fn new(TrialResult { run, score, .. }: &TrialResult, seconds: f64) -> Self {
+    fn new(result: &TrialResult, seconds: f64) -> Self {
+        let TrialResult { run, score, .. } = result;
         Self {
-            ending: run.outcome.into(),
+            ending: result.ending(),
             reason: run.reason.clone(),
             sim_s: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
             error_mm: score.error.map(|error| 1e3 * error.mean),
@@ -160,16 +161,15 @@ fn re_estimated(trial: &Trial, kind: ContactEstimatorKind) -> Result<Measured, E
 /// Marks the Pareto-optimal rows, among all settings and among those of the same world.
 fn mark(rows: &mut [ParetoRow]) {
     let fronts = |world: Option<&str>| {
-        let counts = |row: &&ParetoRow| row.completed() && world.is_none_or(|world| row.world == world);
+        let counts = |row: &&ParetoRow| row.met_its_stop() && world.is_none_or(|world| row.world == world);
         let counted = || rows.iter().map(|row| Some(row).filter(counts));
         let of = |error: fn(&ParetoRow) -> Option<f64>| {
             let point = |row: Option<&ParetoRow>| Some([row?.relative_time?, error(row?)?]);
             front(&counted().map(point).collect::<Vec<_>>())
         };
         let [exact, fine, mismatched] =
-            [of(|row| row.error_mm), of(|row| row.fine_mm), of(ParetoRow::completed_mismatched_mm)];
-        let point =
-            |row: Option<&ParetoRow>| Some([row?.relative_time?, row?.error_mm?, row?.completed_mismatched_mm()?]);
+            [of(|row| row.error_mm), of(|row| row.fine_mm), of(ParetoRow::usable_mismatched_mm)];
+        let point = |row: Option<&ParetoRow>| Some([row?.relative_time?, row?.error_mm?, row?.usable_mismatched_mm()?]);
         let together = front(&counted().map(point).collect::<Vec<_>>());
         let front = |index| Front {
             exact: exact[index],

@@ -35,6 +35,8 @@ pub struct Pareto {
 
 impl Document for Pareto {
     const FORMAT: &'static str = "pareto";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 /// Run time and error of one setting.
@@ -114,14 +116,14 @@ impl Front {
 }
 
 impl ParetoRow {
-    /// True if the run completed.
-    pub(crate) fn completed(&self) -> bool {
-        self.outcome == Ending::Completed
+    /// True if the run met its stop condition.
+    pub(crate) fn met_its_stop(&self) -> bool {
+        self.outcome.met_its_stop()
     }
 
-    /// The error (mm) with a wrong model of the array, if that run completed.
-    pub(crate) fn completed_mismatched_mm(&self) -> Option<f64> {
-        self.mismatched_mm.filter(|_| self.mismatched_outcome == Ending::Completed)
+    /// The error (mm) with a wrong model of the array, if that run met its stop condition.
+    pub(crate) fn usable_mismatched_mm(&self) -> Option<f64> {
+        self.mismatched_mm.filter(|_| self.mismatched_outcome.met_its_stop())
     }
 
     /// The row of a setting. `scene` and `world` are the result of the setting. There are a run with the right model and

@@ -54,6 +54,8 @@ pub enum StressRow {
 
 impl Document for StressRow {
     const FORMAT: &'static str = "stress";
+    // A run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 2;
 }
 
 impl StressRow {
@@ -82,7 +84,7 @@ impl StressCase {
             Ok(result) => result,
             Err(cause) => return self.row(Ending::Refused, Some(cause.to_string()), 0.0, true),
         };
-        let document = trial.document(&result);
+        let (document, ending) = (trial.document(&result), result.ending());
         // JSON has no infinite numbers. They would read as missing figures.
         let run = result.run;
         let mut trace = run.trace;
@@ -93,7 +95,7 @@ impl StressCase {
             *deviation = 0.0;
         }
         let finite = is_finite(&format!("{document:?}")) && is_finite(&format!("{trace:?}"));
-        self.row(run.outcome.into(), run.reason, document.sim_s, finite)
+        self.row(ending, run.reason, document.sim_s, finite)
     }
 
     /// The row of a case whose process crashed.

@@ -6,10 +6,10 @@ use super::row::{Differences, WorldsRow};
 use super::simulation::Simulation;
 use super::track::{Instant, Track};
 use crate::results::policy_label;
-use crate::run::Run;
+
 use crate::scene::Scene;
 use crate::score::Estimate;
-use crate::trial::{ExecuteError, Trial};
+use crate::trial::{ExecuteError, Trial, TrialResult};
 use vibrissa_runtime::machine::Program;
 
 /// Runs a policy in a scene in a simulation, the `reference`, and compares other simulations with it.
@@ -30,12 +30,13 @@ pub fn compare_worlds(
     reference: &Simulation,
     others: &[Simulation],
 ) -> Result<Vec<WorldsRow>, ExecuteError> {
-    let reference_run = run(scene, program, reference)?;
+    let reference_run = run(scene, program, reference)?.run;
     let contour = Estimate::new(&reference_run.trace);
     let of_reference = Track::along(&reference_run.trace, scene, reference)?;
     let mut rows = Vec::with_capacity(others.len());
     for simulation in others {
-        let own = run(scene, program, simulation)?;
+        let result = run(scene, program, simulation)?;
+        let own = &result.run;
         let track = Track::along(&reference_run.trace, scene, simulation)?;
         let (pairs, touching) = pairs(&of_reference, &track, scene.rig.sensing.contact_threshold);
         let of = |distance: fn(&(Instant, Instant)) -> f64| Differences::of(pairs.iter().map(distance).collect());
@@ -46,7 +47,7 @@ pub fn compare_worlds(
             policy: policy_label(program),
             simulation: simulation.name,
             reference: reference.name,
-            outcome: own.outcome.into(),
+            outcome: result.ending(),
             reason: own.reason.clone(),
             along_s: reference_run.trace.period * track.ticks.len().min(of_reference.ticks.len()) as f64,
             stopped: track.fault.or_else(|| of_reference.fault.clone()),
@@ -62,11 +63,11 @@ pub fn compare_worlds(
 }
 
 /// The run of a policy in a simulation. Control assumes the rig of the scene.
-fn run(scene: &Scene, program: &Arc<Program>, simulation: &Simulation) -> Result<Run, ExecuteError> {
+fn run(scene: &Scene, program: &Arc<Program>, simulation: &Simulation) -> Result<TrialResult, ExecuteError> {
     let mut trial = Trial::new(simulation.scene(scene), Arc::clone(program));
     trial.assumed_rig = scene.rig.clone();
     trial.world = simulation.world.into();
-    Ok(trial.run()?.run)
+    trial.run()
 }
 
 /// The pairs of instants of the same whisker in the same tick that are compared. Also the number of ticks in which the

@@ -43,7 +43,8 @@ pub struct WorldsRow {
 impl Document for WorldsRow {
     const FORMAT: &'static str = "worlds";
     // Version 1 had the key `tier`.
-    const VERSION: u32 = 2;
+    // In version 2, a run that met its stop condition but not all expectations was `completed`.
+    const VERSION: u32 = 3;
 }
 
 /// The sizes of differences.

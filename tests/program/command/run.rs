@@ -228,6 +228,63 @@ mod with_simulation {
         assert!(stderr(&output).contains("the outcome is timeout, expected completed"), "{}", stderr(&output));
     }
 
+    /// A plus, whose inner corners the body cannot follow. The scenario says nothing about its tracing.
+    const PLUS: &str = "name: plus
+objects:
+  - polygon: {vertices: [[0.375 m, 0.1 m], [0.575 m, 0.1 m], [0.575 m, 0.4 m], [0.875 m, 0.4 m], [0.875 m, 0.6 m],
+      [0.575 m, 0.6 m], [0.575 m, 0.9 m], [0.375 m, 0.9 m], [0.375 m, 0.6 m], [0.075 m, 0.6 m], [0.075 m, 0.4 m], [0.375 m, 0.4 m]]}
+start: {position: [0 m, 72 mm], heading: 90 deg}
+stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
+";
+
+    #[test]
+    fn a_loop_around_an_object_that_was_not_traced_has_ended_and_is_not_completed() {
+        let out = directory("ended");
+        let file = out.join("plus.yaml");
+        std::fs::write(&file, PLUS).unwrap();
+        let [file, shown] = [&file, &out].map(|path| path.display().to_string());
+        let arguments = ["run", &file, "--policy", "policies/vibrissa.fsm", "--world", "quasistatic", "--out", &shown];
+        let output = vibrissa(&arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        let (told, table) = (stderr(&output), stdout(&output));
+        assert!(told.contains("plus: ended: object_coverage is 7"), "{told}");
+        assert_eq!(told.matches("object_coverage").count(), 1, "told once: {told}");
+        let text = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+        let result: Value = serde_json::from_str(&text("plus.json")).unwrap();
+        assert_eq!((&result["outcome"], result["violations"].as_array().unwrap().len()), (&"ended".into(), 2));
+        for text in [table, text("plus.svg"), text("index.html"), text("plus.json")] {
+            assert!(text.contains("ended") && !text.contains("completed"), "{text:.3000}");
+        }
+    }
+
+    #[test]
+    fn a_dead_whisker_is_named_in_the_messages_the_table_and_the_json() {
+        let mismatch = directory("dead_whisker").join("dead.yaml");
+        std::fs::write(&mismatch, "whiskers: {r0: {sensor: {gain: -90 %}}}\n").unwrap();
+        let mismatch = mismatch.display().to_string();
+        let arguments = [
+            "run",
+            "scenarios/round-tunnel.yaml",
+            "--policy",
+            "policies/vibrissa.fsm",
+            "--world",
+            "quasistatic",
+            "--mismatch",
+            &mismatch,
+            "--uncalibrated",
+        ];
+        let output = vibrissa(&[&arguments[..], &["--wide"]].concat());
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains("warning: r0 seems dead"), "{}", stderr(&output));
+        assert!(!stderr(&output).contains("l0 seems dead"), "{}", stderr(&output));
+        assert!(stdout(&output).contains("seem dead"), "{}", stdout(&output));
+        let output = vibrissa(&[&arguments[..], &["--json"]].concat());
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let dead =
+            |index: usize| (&results[0]["whiskers"][index]["whisker"], &results[0]["whiskers"][index]["seems_dead"]);
+        assert_eq!((dead(0), dead(1)), ((&"r0".into(), &true.into()), (&"l0".into(), &false.into())));
+    }
+
     #[test]
     fn the_bench_runs_its_scenes_and_reports_them() {
         let out = directory("bench");

@@ -103,6 +103,15 @@ fn every_figure_of_every_scene_is_that_of_its_snapshot() {
 }
 
 #[test]
+fn no_whisker_of_the_bench_seems_dead_and_every_run_completes() {
+    for (_, result) in RUNS.iter() {
+        let dead: Vec<_> = result.dead_whiskers().collect();
+        assert!(dead.is_empty(), "{} under {} in {}: {dead:?}", result.scenario, result.policy, result.world);
+        assert_eq!((result.outcome.name(), &result.violations), ("completed", &Vec::new()), "{}", result.scenario);
+    }
+}
+
+#[test]
 fn forty_snapshots_have_all_figures() {
     let names = SCENARIOS.iter().map(|file| file.path.trim_start_matches("scenarios/").trim_end_matches(".yaml"));
     let names: Vec<_> = names.collect();

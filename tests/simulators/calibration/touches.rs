@@ -1,10 +1,9 @@
 //! Calibrations of arrays by their own touches of a pin.
 
-use vibrissa::calibration::TouchLimits;
+use vibrissa::calibration::{ArrayCalibration, TouchLimits};
 use vibrissa::diagnostic::Source;
 use vibrissa::mismatch::{Mismatch, Property};
 use vibrissa::scene::{Scene, WorldKind};
-use vibrissa::study::ArrayCalibration;
 use vibrissa_runtime::calibration::{Parameter, TouchRefusal};
 
 /// A scene with an array that differs from its rig.

@@ -3,6 +3,7 @@
 mod corners;
 mod passage;
 mod reach;
+mod response;
 mod retrieval;
 #[expect(clippy::module_inception, reason = "the score as a whole")]
 mod score;

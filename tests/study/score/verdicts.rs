@@ -5,6 +5,7 @@ use std::sync::Arc;
 use vibrissa::built_in::DEFAULT_POLICY;
 use vibrissa::family::{Draw, FAMILIES, Family};
 use vibrissa::geometry::{Contour, Point2, TunnelAxis};
+use vibrissa::results::{Ending, Figures, Tally};
 use vibrissa::run::{Run, Trace};
 use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::score::tips;
@@ -157,6 +158,24 @@ fn what_passes_has_traced_its_object_and_hardly_a_tip_is_an_outlier() {
     assert!(passed_runs(WorldKind::QuasiStatic, 77, 24) > 160);
     #[cfg(feature = "sim")]
     assert!(passed_runs(WorldKind::Mujoco, 78, 10) > 40);
+}
+
+/// In both runs a whisker records a tip that is more than 20 mm off, with a standard deviation of less than half a millimetre.
+#[test]
+fn a_run_with_a_recorded_tip_more_than_2_mm_off_does_not_pass() {
+    for (family, trial) in [("zigzag-tunnel", 5), ("tunnel-mouth", 102)] {
+        let Draw { scene, speed, .. } = Family::named(family).unwrap().draw(918_273, trial).unwrap();
+        let mut program = program();
+        program.set("speed", speed, Dimension::SPEED).unwrap();
+        let trial = Trial { world: WorldKind::QuasiStatic.into(), ..Trial::new(scene, Arc::new(program)) };
+        let result = trial.run().unwrap();
+        let document = trial.document(&result);
+        assert_eq!((result.run.outcome, document.outcome), (Outcome::Completed, Ending::Ended), "{family}");
+        assert!(document.violations.len() == 1 && document.violations[0].starts_with("error_max is 2"), "{document:?}");
+        assert!(document.passed_but_for_tips);
+        let tally = Tally::new([Figures::new(&document)]);
+        assert_eq!((tally.passed, tally.passed_but_for_tips, tally.completed, tally.collision_free), (0, 1, 1, 1));
+    }
 }
 
 #[test]

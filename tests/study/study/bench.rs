@@ -7,9 +7,8 @@ use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use vibrissa::results::{Hashes, Identity, LargestError, MeanStd, MismatchIdentity, Retrieval, RunResult};
+use vibrissa::results::{Ending, Hashes, Identity, LargestError, MeanStd, MismatchIdentity, Retrieval, RunResult};
 use vibrissa::scenario;
-use vibrissa::scene::Outcome;
 use vibrissa::score::Score;
 use vibrissa::study::bench::{BASELINE, BenchRow, Conditions, Verdict};
 use vibrissa_runtime::rig::Rig;
@@ -21,7 +20,8 @@ fn result(scenario: &str, off: f64) -> RunResult {
     let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
     let identity =
         Identity { scenario, policy, true_tips: false, world, seed: 0, mismatch: None, calibration: None, hash };
-    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default()))
+    let score = Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default());
+    RunResult::new(identity, &run, &score, &[])
 }
 
 fn spread(mean: f64) -> MeanStd {
@@ -36,16 +36,16 @@ fn retrieval(radius: MeanStd) -> Retrieval {
 fn a_figure_is_better_up_to_the_baselines_and_worse_beyond() {
     for figures in BASELINE {
         for (factor, verdict) in [(0.99, Verdict::Better), (1.01, Verdict::Worse)] {
-            let row = BenchRow::new(result(figures.scenario, factor * figures.error_mm.mean * 1e-3), true);
+            let row = BenchRow::new(result(figures.scenario, factor * figures.error_mm.mean * 1e-3));
             assert_eq!(row.verdicts.error_mm, Some(verdict), "{}", figures.scenario);
         }
     }
     let mut boxed = result("box", 0.0);
     boxed.retrieval = Some(retrieval(spread(11.3)));
-    let row = BenchRow::new(boxed.clone(), true);
+    let row = BenchRow::new(boxed.clone());
     assert_eq!((row.verdicts.radius_mm, row.passed), (Some(Verdict::Worse), false));
     boxed.retrieval = Some(retrieval(spread(11.1)));
-    assert!(BenchRow::new(boxed, true).passed);
+    assert!(BenchRow::new(boxed).passed);
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn shares_are_pooled_over_tips_and_not_over_scenes() {
         let mut result = result(scenario, 0.0);
         result.error_mm.n = tips;
         (result.error_mm.outliers, result.error_mm.within_band) = (Some(outliers), Some(within_band));
-        BenchRow::new(result, true)
+        BenchRow::new(result)
     };
     let told = pooled_tips(&[row("disk", 100, 0.04, 0.6), row("box", 300, 0.0, 1.0)]);
     assert_eq!(told, "thesis: 400 tips, 1.000 % outliers, 90.0 % within their 95 % interval");
@@ -63,12 +63,12 @@ fn shares_are_pooled_over_tips_and_not_over_scenes() {
 #[test]
 fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
     let good = result("disk", 1e-4);
-    assert!(BenchRow::new(good.clone(), true).passed);
-    assert!(!BenchRow::new(RunResult { outcome: Outcome::Timeout, ..good.clone() }, true).passed);
+    assert!(BenchRow::new(good.clone()).passed);
+    assert!(!BenchRow::new(RunResult { outcome: Ending::Timeout, ..good.clone() }).passed);
     let mut nothing = good.clone();
     nothing.error_mm.mean = None;
-    assert_eq!(BenchRow::new(nothing, true).verdicts.error_mm, Some(Verdict::Worse));
-    let tunnel = BenchRow::new(result("smooth-tunnel", 1e-4), true);
+    assert_eq!(BenchRow::new(nothing).verdicts.error_mm, Some(Verdict::Worse));
+    let tunnel = BenchRow::new(result("smooth-tunnel", 1e-4));
     assert_eq!(
         (tunnel.verdicts.axis_mm, tunnel.passed),
         (Some(Verdict::Worse), false),
@@ -76,36 +76,39 @@ fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
     );
     let mut not_a_number = good;
     not_a_number.error_mm.mean = Some(f64::NAN);
-    assert!(!BenchRow::new(not_a_number, true).passed);
+    assert!(!BenchRow::new(not_a_number).passed);
 }
 
 #[test]
 fn who_retrieves_nothing_is_not_worse_at_it_and_a_foreign_scene_has_only_to_complete() {
-    let row = BenchRow::new(result("octagon", 1e-4), true);
+    let row = BenchRow::new(result("octagon", 1e-4));
     assert_eq!((row.verdicts.radius_mm, row.passed), (None, true));
-    let foreign = BenchRow::new(result("star", 0.1), true);
+    let foreign = BenchRow::new(result("star", 0.1));
     assert_eq!((foreign.baseline, foreign.passed), (None, true));
 }
 
 #[test]
 fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
     let conditions = Conditions { friction: 0.3, noise: true };
-    let worse = BenchRow::new(result("disk", 2e-3), false);
+    let worse = BenchRow::new(result("disk", 2e-3));
     assert!(!worse.passed && !worse.clone().under(Conditions::default()).passed);
     let hard = worse.clone().under(conditions);
     assert!(hard.passed && bench_table(&[hard]).wide().contains("disk, friction 0.3, noise"));
-    let failed = BenchRow { result: RunResult { outcome: Outcome::Failed, ..worse.result.clone() }, ..worse };
-    assert!(!failed.under(conditions).passed);
+    // A run that ended without what its scene expects has not completed.
+    for outcome in [Ending::Ended, Ending::Failed] {
+        let row = BenchRow { result: RunResult { outcome, ..worse.result.clone() }, ..worse.clone() };
+        assert!(!row.under(conditions).passed, "{outcome}");
+    }
 }
 
 #[test]
 fn a_run_with_a_mismatch_has_only_to_complete_and_says_so() {
     let mut bent = result("disk", 5e-3);
     bent.mismatch = Some(MismatchIdentity { file: None, seed: 0 });
-    let row = BenchRow::new(bent.clone(), false).under(Conditions::default());
+    let row = BenchRow::new(bent.clone()).under(Conditions::default());
     assert!(row.passed && row.scene() == "disk, mismatch");
-    bent.outcome = Outcome::Failed;
-    assert!(!BenchRow::new(bent, false).under(Conditions::default()).passed);
+    bent.outcome = Ending::Failed;
+    assert!(!BenchRow::new(bent).under(Conditions::default()).passed);
 }
 
 #[test]
@@ -127,7 +130,7 @@ fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_ch
 #[test]
 fn the_table_marks_figures_that_are_better_than_the_baselines() {
     let rows = ["disk", "smooth-tunnel"].into_iter().zip([2e-4, 2e-3]);
-    let table = bench_table(&rows.map(|(scene, off)| BenchRow::new(result(scene, off), true)).collect::<Vec<_>>());
+    let table = bench_table(&rows.map(|(scene, off)| BenchRow::new(result(scene, off))).collect::<Vec<_>>());
     let column = |heading: &str| table.headings().iter().position(|found| found == heading).unwrap();
     for (row, wanted) in table
         .rows()
@@ -164,9 +167,9 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
         state: Some(attack.to_owned()),
         whisker: attack.to_owned(),
     });
-    failed.outcome = Outcome::Failed;
+    failed.outcome = Ending::Failed;
     failed.reason = Some(attack.to_owned());
-    let rows = [BenchRow::new(failed, true), BenchRow::new(result("box", 1e-4), true)];
+    let rows = [BenchRow::new(failed), BenchRow::new(result("box", 1e-4))];
     let page = bench_page(&rows, &[figures.clone(), figures], None);
     assert!(page.contains("1 of 2 runs passed") && page.contains("class=\"name worse\">failed"));
     // The only scripts are the positions of two pictures and that of the page.

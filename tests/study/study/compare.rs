@@ -96,7 +96,8 @@ fn result(seed: u64, ticks: usize, outcome: Outcome) -> RunResult {
     let [scenario, policy, world] = ["disk", "m", "mujoco"].map(str::to_owned);
     let identity =
         Identity { scenario, policy, true_tips: false, world, seed, mismatch: None, calibration: None, hash };
-    RunResult::new(identity, &run, &Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into(), &Rig::default()))
+    let score = Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into(), &Rig::default());
+    RunResult::new(identity, &run, &score, &[])
 }
 
 #[test]
@@ -124,7 +125,7 @@ fn a_run_that_either_did_not_complete_is_in_no_pair_but_that_of_completion_and_i
     assert!(completed.first == 1.0 && completed.mean == 0.75, "a share of all runs");
     assert!(comparison.figures.iter().all(|figure| figure.figure != "corners.time_s"), "a disk has none");
     let [runs, figures] = comparison_tables(&comparison);
-    assert_eq!(runs.rows()[1], ["b.fsm", "4", "1"]);
+    assert_eq!(runs.rows()[1], ["b.fsm", "4", "75.0 (30.1–95.4)", "100.0 (51.0–100.0)"]);
     assert!(figures.fitted().starts_with("Against a.fsm"), "{}", figures.fitted());
 }
 

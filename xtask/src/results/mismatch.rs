@@ -16,7 +16,7 @@ pub(super) fn page(outputs: &[Json]) -> Result<String, NoKey> {
     let (benches, sweep) = outputs.split_at(BENCHES.len());
     let mut page = String::from(
         "\nAn *ideal* array is the one that control assumes. The [plausible and the hard array](../mismatch.md) differ from it. A *calibrated* array first \
-         [measures itself](../calibration.md#calibration-of-an-array-by-its-own-touches) by touches of a pin. A cell has the outcome of a run that did not complete.\n",
+         [measures itself](../calibration.md#calibration-of-an-array-by-its-own-touches) by touches of a pin. A cell has the outcome of a run that did not complete. A run that ended met its stop condition, but not all expectations of its scene.\n",
     );
     let ideal = benches[0].items();
     for policy in names(ideal, "policy")? {
@@ -63,10 +63,14 @@ fn beside(benches: &[Json], policy: &str, cell: fn(&Json) -> Result<String, NoKe
     Ok(markdown(&headings, &lines))
 }
 
-/// The mean error of a run, or its outcome if it did not complete.
+/// The mean error of a run that met its stop condition, and its outcome if it did not complete.
 fn error(run: &Json) -> Result<String, NoKey> {
-    let outcome = text(run, "outcome")?;
-    if outcome == "completed" { Ok(Fixed(3).text(value(run, "error_mm.mean")?)) } else { Ok(outcome.to_owned()) }
+    let error = Fixed(3).text(value(run, "error_mm.mean")?);
+    Ok(match text(run, "outcome")? {
+        "completed" => error,
+        "ended" => format!("{error}, ended"),
+        outcome => outcome.to_owned(),
+    })
 }
 
 /// The share of tips within their interval.
@@ -90,6 +94,7 @@ mod tests {
             Json::read(&text).unwrap_or(Json::Null)
         };
         let mut outputs: Vec<_> = [0.03, 0.05, 0.9, 0.1].map(|error| bench(error, "completed")).into();
+        outputs[1] = bench(0.05, "ended");
         outputs.push(bench(2.0, "timeout"));
         let group = |mismatch: &str, scenes: &str, error: &str| {
             format!(
@@ -107,7 +112,7 @@ mod tests {
         outputs.push(Json::read(&format!(r#"{{"groups": [{groups}]}}"#)).unwrap_or(Json::Null));
         let page = page(&outputs)?;
         assert!(page.contains("| disk | 0.030 | 0.050 | 0.900 | 0.100 | 2.000 |\n"), "{page}");
-        assert!(page.contains("| box | 0.030 | 0.050 | 0.900 | 0.100 | timeout |\n"), "{page}");
+        assert!(page.contains("| box | 0.030 | 0.050, ended | 0.900 | 0.100 | timeout |\n"), "{page}");
         assert!(page.contains("| disk | 95 | 95 | 95 | 95 | 95 |\n"), "{page}");
         assert!(page.contains("| mismatch | disk | box |\n|---|---|---|\n| `{}` | 0.03 | 0.01 |\n"), "{page}");
         assert!(page.contains("| `{servo: 1 s}` | 2.00 | – |\n"), "{page}");

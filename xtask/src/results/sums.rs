@@ -8,6 +8,7 @@ use super::table::{Column, NoKey, number, pivot, table, text, value};
 use super::tables::{SCENE, has, names, those};
 use super::verdicts::{SIMULATORS, Verdicts};
 use crate::json::Json;
+use crate::wilson::wilson;
 
 /// Counts, means and shares over rows, as a row.
 #[derive(Default)]
@@ -24,6 +25,19 @@ impl Sum {
         *weights += weight;
     }
 
+    /// The same as [`Self::row`], with the 95 % intervals of the shares with these keys under `intervals.`.
+    fn row_with_intervals(&self, names: &[(&str, &str)], keys: &[&str]) -> Json {
+        let count = |key: &str| self.entries.get(key).map_or(0.0, |(sum, _)| *sum);
+        let of = |key: &&str| ((*key).to_owned(), Json::Text(interval(count(key), self.runs)));
+        let intervals = Json::Object(keys.iter().map(of).collect());
+        match self.row(names) {
+            Json::Object(entries) => {
+                Json::Object(entries.into_iter().chain([("intervals".to_owned(), intervals)]).collect())
+            }
+            row => row,
+        }
+    }
+
     /// The means by name. `runs` and `total.` give the numbers of rows and the sums.
     fn row(&self, names: &[(&str, &str)]) -> Json {
         let texts = names.iter().map(|(key, name)| ((*key).to_owned(), Json::Text((*name).to_owned())));
@@ -35,13 +49,25 @@ impl Sum {
     }
 }
 
+/// The 95 % interval of a rate in %.
+fn interval(count: f64, runs: f64) -> String {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of runs")]
+    let ends = wilson(count as u64, runs as u64);
+    ends.map_or_else(String::new, |[low, high]| format!("{:.1} to {:.1}", 100.0 * low, 100.0 * high))
+}
+
 pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
     let columns = [
         Column("family", "family", Code),
         Column("runs", "runs", Plain),
         Column("passed, %", "passed", Percent(1)),
+        Column("its 95 % interval", "intervals.passed", Plain),
+        Column("passed but for tips, %", "passed_but_for_tips", Percent(1)),
+        Column("its interval", "intervals.passed_but_for_tips", Plain),
         Column("completed, %", "completed", Percent(1)),
-        Column("runs with contact of the body", "total.collided", Plain),
+        Column("its interval", "intervals.completed", Plain),
+        Column("collision-free, %", "collision_free", Percent(1)),
+        Column("its interval", "intervals.collision_free", Plain),
         Column("mean error, mm", "error", Fixed(4)),
         Column("coverage of the object, %", "object", Percent(1)),
         Column("outliers, %", "outliers", Percent(3)),
@@ -53,17 +79,21 @@ pub(super) fn families(outputs: &[Json]) -> Result<String, NoKey> {
         for family in names(runs.items(), "family")? {
             let mut sum = Sum::default();
             for run in those(runs.items(), |run| Ok(text(run, "family")? == family))? {
-                let (is_complete, tips) = (text(run, "outcome")? == "completed", number(run, "error_mm.n")?);
+                let is_complete = ["completed", "ended"].contains(&text(run, "outcome")?);
+                let (tips, is_true) = (number(run, "error_mm.n")?, |key| Ok(*value(run, key)? == Json::Bool(true)));
                 sum.runs += 1.0;
-                sum.add("passed", f64::from(*value(run, "passed")? == Json::Bool(true)), 1.0);
+                for key in ["passed", "passed_but_for_tips"] {
+                    sum.add(key, f64::from(is_true(key)?), 1.0);
+                }
                 sum.add("completed", f64::from(is_complete), 1.0);
-                sum.add("collided", f64::from(number(run, "collisions.count")? > 0.0), 1.0);
+                sum.add("collision_free", f64::from(number(run, "collisions.count")? <= 0.0), 1.0);
                 sum.add("error", number(run, "error_mm.mean")?, f64::from(is_complete));
                 sum.add("object", number(run, "object_coverage")?, f64::from(is_complete));
                 sum.add("outliers", number(run, "error_mm.outliers")?, tips);
                 sum.add("within", number(run, "error_mm.within_band")?, tips);
             }
-            rows.push(sum.row(&[("family", family)]));
+            let counted = ["passed", "passed_but_for_tips", "completed", "collision_free"];
+            rows.push(sum.row_with_intervals(&[("family", family)], &counted));
         }
         let list = Verdicts::list(&Verdicts::of(title, runs.items())?);
         let _ = write!(page, "\n## {title}\n\n{}\n{list}", table(&rows, &columns)?);
@@ -121,7 +151,7 @@ mod tests {
     fn the_page_of_the_families_has_the_verdicts_of_its_runs() -> Result<(), NoKey> {
         let run = |family: &str, trial: u64, passed: bool| {
             format!(
-                r#"{{"family": "{family}", "trial": {trial}, "passed": {passed}, "outcome": "completed", "object_coverage": 1,
+                r#"{{"family": "{family}", "trial": {trial}, "passed": {passed}, "passed_but_for_tips": true, "outcome": "completed", "object_coverage": 1,
                 "error_mm": {{"n": 9, "mean": 0, "outliers": 0, "within_band": 1}}, "collisions": {{"count": 0}}}}"#
             )
         };
@@ -138,6 +168,7 @@ mod tests {
             .concat();
         assert_eq!(Verdicts::published(&page), Ok(expected), "{page}");
         assert!(page.contains("| `wall` | 1, 2 |\n| `disk` | – |\n"), "{page}");
+        assert!(page.contains("| `wall` | 3 | 33.3 | 6.1 to 79.2 | 100.0 | 43.9 to 100.0 |"), "{page}");
         Ok(())
     }
 

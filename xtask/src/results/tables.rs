@@ -143,8 +143,10 @@ pub(super) fn friction(outputs: &[Json]) -> Result<String, NoKey> {
     let conditions =
         [SCENE, POLICY, Column("friction", "conditions.friction", Plain), Column("noise", "conditions.noise", Plain)];
     let stopped = those(&runs, |run| Ok(text(run, "outcome")? != "completed"))?;
-    let reasons = [&conditions[..], &[RUN[2], Column("reason", "reason", Plain)]].concat();
-    let _ = write!(page, "\n## Runs that did not complete\n\n{}", table(stopped, &reasons)?);
+    let stopped = stopped.into_iter().map(explained).collect::<Result<Vec<_>, NoKey>>()?;
+    let reasons = [&conditions[..], &[RUN[2], Column("reason", "explanation", Plain)]].concat();
+    let about = "A run that ended met its stop condition, but not all expectations of its scene.";
+    let _ = write!(page, "\n## Runs that did not complete\n\n{about}\n\n{}", table(&stopped, &reasons)?);
     let touched = those(&runs, |run| Ok(number(run, "collisions.count")? > 0.0))?;
     let contacts = [ERRORS[7], Column("their duration, s", "collisions.time_s", Fixed(1))];
     Ok(page
@@ -152,6 +154,19 @@ pub(super) fn friction(outputs: &[Json]) -> Result<String, NoKey> {
             "\n## Runs in which the body touched something\n\n{}",
             table(touched, &[&conditions[..], &contacts].concat())?
         ))
+}
+
+/// A run with its reason as `explanation`. Of a run that ended, that is what it did not meet.
+fn explained(run: &Json) -> Result<Json, NoKey> {
+    let explanation = if text(run, "outcome")? == "ended" {
+        let missing = value(run, "violations")?.items().iter().map(|one| Plain.text(one));
+        missing.collect::<Vec<_>>().join(", ")
+    } else {
+        text(run, "reason")?.to_owned()
+    };
+    let Json::Object(mut entries) = run.clone() else { return Err(NoKey("outcome".to_owned())) };
+    entries.extend([("explanation".to_owned(), Json::Text(explanation))]);
+    Ok(Json::Object(entries))
 }
 
 pub(super) fn policies(outputs: &[Json]) -> Result<String, NoKey> {
@@ -328,7 +343,9 @@ mod tests {
             )
         };
         let output = |runs: &[String]| Json::read(&format!("[{}]", runs.join(","))).unwrap_or(Json::Null);
-        let outputs = [output(&[run(0.0, true, 1.0), run(0.1, true, 2.0)]), output(&[run(0.1, false, 3.0)])];
+        let ended = run(0.1, false, 3.0)
+            .replace(r#""failed", "reason": "a; b""#, r#""ended", "violations": ["c", "d"], "reason": null"#);
+        let outputs = [output(&[run(0.0, true, 1.0), run(0.1, true, 2.0)]), output(&[ended])];
         let page = friction(&outputs).unwrap_or_default();
         assert!(
             page.contains(
@@ -336,7 +353,8 @@ mod tests {
             ),
             "{page}"
         );
-        assert!(page.contains("| disk | `p` | 0.1 | no | failed | a, b |"), "{page}");
+        assert!(page.contains("| disk | `p` | 0.1 | yes | failed | a, b |"), "{page}");
+        assert!(page.contains("| disk | `p` | 0.1 | no | ended | c, d |"), "{page}");
         assert!(page.contains("body touched something\n\nThere are none."), "{page}");
     }
 }

@@ -102,6 +102,7 @@ class WhiskerEnv(gymnasium.Env):
         if terminated or truncated:
             self._result = self._episode.result()
             info["figures"] = self._result.figures
+            info["outcome"] = self._result.outcome
         return self._observation(seen), reward, terminated, truncated, info
 
     def render(self):
