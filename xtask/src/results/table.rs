@@ -16,7 +16,7 @@ pub(super) enum Show {
     Plain,
     /// A name in code.
     Code,
-    /// A number with so many decimals.
+    /// A number with so many decimals, and with more of them if fewer than two significant digits were left.
     Fixed(usize),
     /// A share in per cent, with so many decimals.
     Percent(usize),
@@ -36,13 +36,25 @@ impl Show {
             (Self::Code, Json::Text(text)) => format!("`{text}`"),
             // One cell has one quantity, and `|` would end the cell.
             (_, Json::Text(text)) => text.replace(';', ",").replace('|', "/").replace('\n', " "),
-            (Self::Fixed(decimals), Json::Number(number)) => format!("{number:.decimals$}"),
+            (Self::Fixed(decimals), Json::Number(number)) => fixed(*number, decimals),
             (Self::Percent(decimals), Json::Number(share)) => format!("{:.decimals$}", share * 100.0),
             (_, Json::Number(number)) => number.to_string(),
             (_, Json::Bool(is)) => if *is { "yes" } else { "no" }.to_owned(),
             (_, Json::Null | Json::List(_) | Json::Object(_)) => NONE.to_owned(),
         }
     }
+}
+
+/// A number with so many decimals. A small one has as many as three significant digits need, if fewer than two were left: errors in a
+/// simulator without noise are not zero.
+fn fixed(number: f64, decimals: usize) -> String {
+    let size = number.abs();
+    if size == 0.0 || decimals == 0 || size >= 9.5 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)) {
+        return format!("{number:.decimals$}");
+    }
+    let needed =
+        (0..=9_usize).find(|&decimals| size >= 99.5 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)));
+    needed.map_or_else(|| format!("{number:.2e}"), |needed| format!("{number:.needed$}"))
 }
 
 /// The value behind a path. What is behind null is null, but a key that an object lacks is an error.
@@ -140,6 +152,13 @@ mod tests {
             Ok("| policy | error, mm | coverage, % | runs | ok | why |\n|---|---|---|---|---|---|\n\
                 | `a` | 0.032 | 99.9 | 3 | yes | a, b/c |\n")
         );
+    }
+
+    #[test]
+    fn a_small_number_keeps_three_digits_and_a_larger_one_its_decimals() {
+        let shown = [0.000_312, 0.001_24, 0.0316, 0.5, 12.0, 0.0, -0.000_312, 3.21e-12].map(|number| fixed(number, 3));
+        assert_eq!(shown, ["0.000312", "0.00124", "0.032", "0.500", "12.000", "0.000", "-0.000312", "3.21e-12"]);
+        assert_eq!(fixed(0.4, 0), "0");
     }
 
     #[test]
