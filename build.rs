@@ -1,4 +1,4 @@
-//! Lets programs find MuJoCo's library where set-up put it, with no environment variable, and names the sources for the cache.
+//! Lets programs find MuJoCo's library where set-up put it, with no environment variable, and names the commit and the sources.
 
 #![allow(clippy::disallowed_methods, reason = "a build script cannot use the crate that it builds")]
 
@@ -6,17 +6,31 @@ use std::env;
 use std::fs;
 use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
-use std::process::exit;
+use std::process::{Command, exit};
 
 /// The directory that mujoco-rs links against; `.cargo/config.toml` sets it.
 const LINK_DIR: &str = "MUJOCO_DYNAMIC_LINK_DIR";
-/// Everything of this repository that the results of a simulation depend on. A package does not have the folder of the runtime, whose
-/// version is in the other file.
-const SOURCES: [&str; 3] = ["src", "crates/runtime/src", "Cargo.lock"];
+/// The code of this repository that the program is made of. A package does not have the folders of other crates, whose versions are in
+/// the last file. Only a change of these runs this script again: a commit of other files builds nothing anew, and the program still names
+/// a commit with the same sources.
+const SOURCES: [&str; 9] = [
+    "src",
+    "grammar",
+    "crates/mlx90393/src",
+    "crates/mlx90393-emulator/src",
+    "crates/robot/src",
+    "crates/runtime/src",
+    "web/dist",
+    "Cargo.toml",
+    "Cargo.lock",
+];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     name_sources();
+    if let Some(commit) = commit() {
+        println!("cargo::rustc-env=VIBRISSA_COMMIT={commit}");
+    }
     if env::var_os("CARGO_FEATURE_SIM").is_none() {
         return;
     }
@@ -69,4 +83,32 @@ fn add_source(path: &Path, hash: &mut DefaultHasher) {
     for path in paths {
         add_source(&path, hash);
     }
+}
+
+/// The commit of the sources, followed by `modified` if they differ from it: of the checkout, or of the package. `None` for sources
+/// without either.
+fn commit() -> Option<String> {
+    // A package names the commit that it was made of. It may lie in the checkout of another project.
+    let package = fs::read_to_string(".cargo_vcs_info.json").unwrap_or_default();
+    if let Some(commit) =
+        package.split('"').find(|word| word.len() == 40 && word.bytes().all(|c| c.is_ascii_hexdigit()))
+    {
+        let is_modified = package.contains("\"dirty\": true");
+        return Some(if is_modified { format!("{commit} modified") } else { commit.to_owned() });
+    }
+    let own = Path::new(&env::var_os("CARGO_MANIFEST_DIR")?).canonicalize().ok()?;
+    let top = git(&["rev-parse", "--show-toplevel"])?;
+    if Path::new(&top).canonicalize().ok()? != own {
+        return None;
+    }
+    let commit = git(&["rev-parse", "HEAD"])?;
+    let changes = git(&[&["status", "--porcelain", "--"][..], &SOURCES].concat())?;
+    Some(if changes.is_empty() { commit } else { format!("{commit} modified") })
+}
+
+/// The output of git. `None` if there is none, or if it fails.
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").arg("--no-optional-locks").args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
 }

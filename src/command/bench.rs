@@ -10,13 +10,14 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{ArrayOptions, ConditionOptions, Format, Jobs, Policies, WorldOptions};
 use super::output;
+use super::provenance::of_runs;
 use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
 use super::values::parse_seed;
 use crate::built_in::SCENARIOS;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, GivenMismatch, LoadError, check_noise_seed};
 use crate::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use crate::results::{Document, Ending, RunResult};
+use crate::results::{Document, Ending, Provenance, RunResult};
 use crate::study::bench::{BenchRow, Conditions};
 use crate::study::compare::OlderRuns;
 use crate::trial::Trial;
@@ -72,8 +73,9 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         rows.push(row);
         figures.push(drawn.unwrap_or_else(RunFigures::none));
     }
-    let page = report.map(|report| report.write(&rows, &figures, older.as_ref())).transpose()?;
-    output::documents(arguments.format, &rows, || [bench_table(&rows)])?;
+    let provenance = of_runs(rows.iter().map(|row| &row.result));
+    let page = report.map(|report| report.write(&provenance, &rows, &figures, older.as_ref())).transpose()?;
+    output::documents(arguments.format, &provenance, &rows, || [bench_table(&rows)])?;
     if !arguments.format.json {
         output::result(pooled_tips(&rows))?;
         if let Some(page) = page {
@@ -160,15 +162,22 @@ impl Report {
     }
 
     /// Writes the files and returns the path of the page.
-    fn write(self, rows: &[BenchRow], figures: &[RunFigures], older: Option<&OlderRuns>) -> Result<PathBuf, Failure> {
+    fn write(
+        self,
+        provenance: &Provenance,
+        rows: &[BenchRow],
+        figures: &[RunFigures],
+        older: Option<&OlderRuns>,
+    ) -> Result<PathBuf, Failure> {
         for (file, figures) in self.pictures.into_iter().zip(figures) {
             file.write(&figures.picture)?;
         }
-        let documents = rows.iter().map(|row| serde_json::to_value(row.versioned())).collect::<Result<Vec<_>, _>>()?;
+        let documents =
+            rows.iter().map(|row| serde_json::to_value(row.versioned(None))).collect::<Result<Vec<_>, _>>()?;
         let changes = older.map(|older| older.changes(&documents));
-        self.results.write(output::list(rows)? + "\n")?;
+        self.results.write(output::list(provenance, rows)? + "\n")?;
         let page = self.page.path().to_owned();
-        self.page.write(bench_page(rows, figures, changes.as_ref()))?;
+        self.page.write(bench_page(provenance, rows, figures, changes.as_ref()))?;
         Ok(page)
     }
 }

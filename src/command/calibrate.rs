@@ -15,6 +15,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
+use super::provenance::provenance;
 use super::trials::make_directory;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use crate::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
@@ -165,7 +166,10 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
     if arguments.format.json {
         let held_out = &fitted.held_out;
         let field_per_moment = board.as_ref().map(|board| board.field_per_moment);
-        output::json(&Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, field_per_moment, held_out })?;
+        output::json(
+            &provenance(),
+            &Printed { whisker: &whisker.name, sets: sets.len(), tip_sets, field_per_moment, held_out },
+        )?;
     } else {
         output::tables(&[held_out_table(&fitted.held_out)], arguments.format.wide)?;
         output::result(format_args!("{} sets, {} of them tip contacts", sets.len(), tip_sets))?;

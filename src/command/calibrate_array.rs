@@ -11,6 +11,7 @@ use super::calibrate::CalibrateArguments;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use super::provenance::provenance;
 use super::trials::make_directory;
 use crate::built_in::SCENARIOS;
 use crate::calibration::{ArrayCalibration, TouchLimits, WhiskerTouches, undetermined, write_touches};
@@ -185,7 +186,7 @@ impl Report {
         documents: &[MeasuredDocument],
         arguments: &CalibrateArguments,
     ) -> Result<Exit, Failure> {
-        output::documents(arguments.format, documents, || [measured_table(found)])?;
+        output::documents(arguments.format, &provenance(), documents, || [measured_table(found)])?;
         for document in documents {
             if let Some(refusal) = &document.refusal {
                 output::message(format_args!("{}: {refusal}", document.whisker));

@@ -11,6 +11,7 @@ use vibrissa_runtime::units::{Dimension, format_si};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use super::provenance::provenance;
 use crate::diagnostic::{Position, Record, records};
 use crate::file::CommandFiles;
 use crate::load::{self, LoadError, PolicyFile};
@@ -179,7 +180,7 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     });
     let checked = checked.collect::<Result<Vec<_>, _>>()?;
     if arguments.json {
-        output::json_list(&checked)?;
+        output::json_list(&provenance(), &checked)?;
     }
     let is_refused = |file: &Checked| {
         (file.machine.is_none() && file.library.is_none()) || (arguments.deny_warnings && !file.diagnostics.is_empty())

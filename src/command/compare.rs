@@ -10,13 +10,14 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Jobs, WorldOptions};
 use super::output;
+use super::provenance::of_runs;
 use super::trials::{inputs, make_directory, run_all};
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, GivenMismatch, LoadError, Loaded};
 use crate::report::{comparison_page, comparison_tables};
-use crate::results::{Document, RunResult, marked};
+use crate::results::{Document, JitterRecord, Provenance, RunResult, marked};
 use crate::scene::{Jitter, Scene};
 use crate::study::compare::{Comparison, Incomplete, PolicyRuns};
 use crate::trial::Trial;
@@ -93,10 +94,14 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
             (marked(&path.display().to_string(), true_tips), results)
         })
         .collect();
+    let jitter = JitterRecord { position_m: arguments.jitter, heading_rad: arguments.jitter_heading };
+    let is_jittered = jitter.position_m > 0.0 || jitter.heading_rad > 0.0;
+    let provenance =
+        Provenance { jitter: is_jittered.then_some(jitter), ..of_runs(runs.iter().flat_map(|(_, results)| results)) };
     let comparison = Comparison::new(&runs);
     report_incomplete(&comparison);
-    let page = report.map(|report| report.write(&comparison, &runs)).transpose()?;
-    output::document(arguments.format, &comparison, || comparison_tables(&comparison))?;
+    let page = report.map(|report| report.write(&provenance, &comparison, &runs)).transpose()?;
+    output::document(arguments.format, &provenance, &comparison, || comparison_tables(&comparison))?;
     if let (Some(page), false) = (page, arguments.format.json) {
         output::result(format_args!("report: {}", page.display()))?;
     }
@@ -117,12 +122,17 @@ impl Report {
     }
 
     /// Writes the files and returns the path of the page.
-    fn write(self, comparison: &Comparison, runs: &[(String, Vec<RunResult>)]) -> Result<PathBuf, Failure> {
-        self.comparison.write(serde_json::to_string_pretty(&comparison.versioned())? + "\n")?;
+    fn write(
+        self,
+        provenance: &Provenance,
+        comparison: &Comparison,
+        runs: &[(String, Vec<RunResult>)],
+    ) -> Result<PathBuf, Failure> {
+        self.comparison.write(serde_json::to_string_pretty(&comparison.versioned(Some(provenance)))? + "\n")?;
         let results: Vec<RunResult> = runs.iter().flat_map(|(_, results)| results).cloned().collect();
-        self.results.write(output::list(&results)? + "\n")?;
+        self.results.write(output::list(provenance, &results)? + "\n")?;
         let page = self.page.path().to_owned();
-        self.page.write(comparison_page(comparison))?;
+        self.page.write(comparison_page(provenance, comparison))?;
         Ok(page)
     }
 }

@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::inspect::{breakpoints, with_program};
 use super::options::{ArrayOptions, Format, WorldOptions};
 use super::output;
+use super::provenance::of_trials;
 use super::trials::{calibrated, say_calibrations};
 use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::CommandFiles;
@@ -51,7 +52,7 @@ pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
         mismatch.apply(scene, hash, 0).map_err(Failure::mismatch(path))?;
     }
     mismatch.check_seed(scenes.iter().map(|(_, scenario)| &scenario.value)).map_err(LoadError::from)?;
-    let mut differences = Vec::new();
+    let (mut differences, mut trials) = (Vec::new(), Vec::new());
     for (path, Loaded { value: scene, .. }) in scenes {
         let trial = |policy: &Breakpoints| {
             let world = arguments.world.of(&scene);
@@ -63,8 +64,9 @@ pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
         let (own, other) = (trial(first)?, trial(second)?);
         say_calibrations(std::iter::once(&own));
         differences.push(first_difference(&own, [first, second], &other).map_err(Failure::execute(&own))?);
+        trials.extend([own, other]);
     }
-    output::documents(arguments.format, &differences, || {
+    output::documents(arguments.format, &of_trials(&trials), &differences, || {
         differences.iter().flat_map(difference_tables).collect::<Vec<_>>()
     })?;
     let is_equal = |difference: &PolicyDifference| difference.first.is_none();

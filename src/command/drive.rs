@@ -18,6 +18,7 @@ use super::failure::Failure;
 use super::live::{LivePage, REAL_TIME, begin, serve_on};
 use super::options::{Format, WorldOptions};
 use super::output;
+use super::provenance::of_trials;
 use super::run_recording::RunRecording;
 use super::trials::{ReportFiles, inputs, make_directory, report_events, report_violations};
 use super::values::parse_seed;
@@ -200,14 +201,17 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     report_events(&document);
     report_violations(&trial.scene.name, &emulated.result);
     let exit = if emulated.result.violations.is_empty() { Exit::Done } else { Exit::Unexpected };
+    let provenance = of_trials([&trial]);
     if let Some(report) = report {
-        report.write(&trial, &emulated.result, &document)?;
+        report.write(&provenance, &trial, &emulated.result, &document)?;
     }
     let result = DriveResult::new(document, &emulated.events, emulated.begun_ns, emulated.missed);
     if result.faults.is_empty() {
-        output::document(arguments.format, &result, || [results_table(std::slice::from_ref(&result.run))])?;
+        output::document(arguments.format, &provenance, &result, || {
+            [results_table(std::slice::from_ref(&result.run))]
+        })?;
     } else {
-        output::document(arguments.format, &result, || {
+        output::document(arguments.format, &provenance, &result, || {
             [results_table(std::slice::from_ref(&result.run)), faults_table(&result.faults)]
         })?;
     }

@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
+use super::provenance::of_trials;
 use super::trials::calibrated;
 use crate::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
 use crate::file::CommandFiles;
@@ -45,22 +46,23 @@ pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failur
         let trial = Trial { world: world.into(), ..Trial::new(scene, Arc::clone(&program)) };
         let trial = calibrated(&trial, &mismatch)?;
         let failed = |cause| Failure::Execute { scenario: file.path.into(), cause };
-        let rows = evaluate_all(&trial.scene, Arc::clone(&program), world).map_err(failed)?;
-        Ok::<_, Failure>(
-            rows.into_iter().map(|row| EstimatorRow { calibration: trial.calibration(), ..row }).collect::<Vec<_>>(),
-        )
+        let rows = evaluate_all(&trial.scene, Arc::clone(&program), world).map_err(failed)?.into_iter();
+        let rows = rows.map(|row| EstimatorRow { calibration: trial.calibration(), ..row }).collect::<Vec<_>>();
+        Ok::<_, Failure>((rows, trial))
     };
     // One run at a time by default, because the run times are compared too.
     let threads = arguments.jobs.threads_or(NonZeroUsize::MIN);
     let mut progress = Progress::new(SCENARIOS.len());
     let rows = in_parallel(SCENARIOS, threads, work, |rows| {
-        if let Some(row) = rows.as_ref().ok().and_then(|rows| rows.first()) {
+        if let Some(row) = rows.as_ref().ok().and_then(|(rows, _)| rows.first()) {
             progress.done(&row.scenario);
         }
     });
     progress.finish();
-    let rows = rows.into_iter().collect::<Result<Vec<_>, Failure>>()?.concat();
+    let (rows, trials): (Vec<_>, Vec<Trial>) =
+        rows.into_iter().collect::<Result<Vec<_>, Failure>>()?.into_iter().unzip();
+    let rows = rows.concat();
     output::calibrations(rows.iter().filter_map(|row| row.calibration.as_ref()));
-    output::documents(arguments.format, &rows, || estimators_tables(&rows))?;
+    output::documents(arguments.format, &of_trials(&trials), &rows, || estimators_tables(&rows))?;
     Ok(Exit::Done)
 }

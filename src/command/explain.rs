@@ -9,6 +9,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::WorldOption;
 use super::output;
+use super::provenance::{provenance, simulator};
 use crate::file::CommandFiles;
 use crate::load;
 use crate::mujoco::Pruning;
@@ -58,7 +59,11 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
     };
     let pruning = Pruning::new(&rig, &physics, &scene.solids, scene.start, &read, world);
     if arguments.json {
-        output::json(&pruning)?;
+        let mut provenance = provenance();
+        provenance.add_scene(&scene.name);
+        provenance.add_policy(&program.name);
+        provenance.add_simulator(simulator(world.name()));
+        output::json(&provenance, &pruning)?;
     } else {
         output::result(&pruning)?;
     }

@@ -11,13 +11,15 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{ArrayOptions, FamilyValues, Format, Jobs, Settings, WorldOptions};
 use super::output;
+use super::provenance::of_runs;
 use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
 use super::values::{parse_runs, parse_seed};
 use crate::built_in::DEFAULT_POLICY;
 use crate::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
-use crate::report::families_table;
+use crate::report::{families_page, families_table};
+use crate::results::{Provenance, SeedRange};
 use crate::scene::Violation;
 use crate::trial::{Trial, in_parallel};
 
@@ -53,7 +55,7 @@ pub(super) struct FamiliesArguments {
     /// Print the scenarios instead of running them
     #[arg(long, conflicts_with_all = ["json", "out", "policy", "settings"])]
     print: bool,
-    /// Write all results, and a picture of every run that did not pass, into this directory
+    /// Write all results, a picture of every run that did not pass, and a page with pass rates into this directory
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -96,11 +98,30 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
     let finished = run_all(&trials, &mismatch, arguments.jobs, is_drawn)?;
     let (runs, pictures) = with_verdicts(scenes, finished);
+    let provenance = of_families(&runs, arguments);
+    let tallies = tallies(&runs);
+    let mut page = None;
     if let Some(report) = report {
-        report.write(&runs, pictures)?;
+        page = Some(report.write(&provenance, &tallies, &runs, pictures)?);
     }
-    output::documents(arguments.format, &runs, || [families_table(&tallies(&runs))])?;
+    output::documents(arguments.format, &provenance, &runs, || [families_table(&tallies)])?;
+    if let (Some(page), false) = (page, arguments.format.json) {
+        output::result(format_args!("report: {}", page.display()))?;
+    }
     Ok(if runs.iter().all(|run| run.passed) { Exit::Done } else { Exit::Unexpected })
+}
+
+/// The origin of the results of families. Their scenes are drawn, so families stand for them.
+fn of_families(runs: &[FamilyRun], arguments: &FamiliesArguments) -> Provenance {
+    let mut provenance = of_runs(runs.iter().map(|run| &run.result));
+    provenance.scenes.clear();
+    let trials = match arguments.trial {
+        Some(trial) => format!("trial {trial}"),
+        None => format!("trials 0 to {}", arguments.count.saturating_sub(1)),
+    };
+    runs.iter().for_each(|run| provenance.add_scene(&format!("{}, {trials}", run.family)));
+    provenance.seeds = vec![SeedRange { first: arguments.seed, last: arguments.seed }];
+    provenance
 }
 
 /// The requested scenes, sampled in parallel.
@@ -149,29 +170,47 @@ fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failur
     ))
 }
 
-/// The files for all results and for pictures.
+/// The files for all results, for pictures and for the page.
 struct Report {
     pictures: Vec<Output>,
     results: Output,
+    page: Output,
 }
 
 impl Report {
     fn new(directory: &Path, scenes: &[Drawn], files: &mut CommandFiles) -> Result<Self, OutputError> {
         let mut file = |name: &str| files.output("--out", &directory.join(name));
         let pictures = scenes.iter().map(|scene| file(&format!("{}.svg", scene.draw.scene.name)));
-        Ok(Self { pictures: pictures.collect::<Result<_, _>>()?, results: file("results.jsonl")? })
+        let pictures = pictures.collect::<Result<_, _>>()?;
+        Ok(Self { pictures, results: file("results.jsonl")?, page: file("index.html")? })
     }
 
-    /// Writes all results and the available pictures.
-    fn write(self, runs: &[FamilyRun], pictures: Vec<Option<String>>) -> Result<(), Failure> {
+    /// Writes all results, the available pictures and the page. The result is the path of the page.
+    fn write(
+        self,
+        provenance: &Provenance,
+        tallies: &[FamilyTally],
+        runs: &[FamilyRun],
+        pictures: Vec<Option<String>>,
+    ) -> Result<PathBuf, Failure> {
+        let name = |file: &Output| file.path().file_name().map(|name| name.to_string_lossy().into_owned());
+        let links: Vec<Option<String>> = self
+            .pictures
+            .iter()
+            .zip(&pictures)
+            .map(|(file, picture)| picture.as_ref().and_then(|_| name(file)))
+            .collect();
         for (file, picture) in self.pictures.into_iter().zip(pictures) {
             picture.map(|picture| file.write(picture)).transpose()?;
         }
         let mut lines = String::new();
         for run in runs {
-            lines += &output::json_line(run)?;
+            lines += &output::json_line(lines.is_empty().then_some(provenance), run)?;
         }
-        Ok(self.results.write(lines)?)
+        self.results.write(lines)?;
+        let page = self.page.path().to_owned();
+        self.page.write(families_page(provenance, tallies, runs, &links))?;
+        Ok(page)
     }
 }
 

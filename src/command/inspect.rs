@@ -8,6 +8,7 @@ use clap::Args;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use super::provenance::of_trials;
 use super::reports::Reports;
 use super::run::{Prepared, RunArguments, TickFile, prepared_trials};
 use crate::diagnostic::Source;
@@ -44,6 +45,7 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
     let trials = prepared_trials(arguments, files)?;
     let transition_file = options.transitions.as_ref().map(|path| files.output("--transitions", path)).transpose()?;
     let mut reports = Reports::new(trials.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), files)?;
+    let provenance = of_trials(trials.iter().map(|prepared| &prepared.trial));
     let mut ticks = TickFile::new(arguments, files)?;
     let (mut stops, mut lines, mut exit) = (Vec::new(), String::new(), Exit::Done);
     for (index, Prepared { trial, text, .. }) in trials.iter().enumerate() {
@@ -53,10 +55,10 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
         let mut inspector = Inspector::new(&policy, &trial.scene.name);
         let finished = trial.run_watched(&mut inspector);
         for line in inspector.transitions() {
-            lines += &output::json_line(line)?;
+            lines += &output::json_line(lines.is_empty().then_some(&provenance), line)?;
         }
         for line in inspector.violations() {
-            lines += &output::json_line(line)?;
+            lines += &output::json_line(lines.is_empty().then_some(&provenance), line)?;
         }
         if let Some(origin) = inspector.origin_of_non_finite() {
             output::message(format_args!("{}: a number is not finite since `{origin}`", trial.scene.name));
@@ -68,8 +70,8 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
                 if !finished.violations.is_empty() {
                     exit = Exit::Unexpected;
                 }
-                ticks.add(&trial, &finished.run)?;
-                reports.add(index, &trial, &finished)?;
+                ticks.add(&provenance, &trial, &finished.run)?;
+                reports.add(&provenance, index, &trial, &finished)?;
             }
         }
     }
@@ -78,10 +80,12 @@ pub(super) fn inspect(arguments: &RunArguments, files: &mut CommandFiles) -> Res
     }
     ticks.write()?;
     if !stops.is_empty() {
-        output::documents(arguments.format, &stops, || stops.iter().flat_map(stop_tables).collect::<Vec<_>>())?;
+        output::documents(arguments.format, &provenance, &stops, || {
+            stops.iter().flat_map(stop_tables).collect::<Vec<_>>()
+        })?;
     }
     if stops.is_empty() || !reports.is_empty() {
-        reports.show(arguments.format)?;
+        reports.show(&provenance, arguments.format)?;
     }
     Ok(exit)
 }

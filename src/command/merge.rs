@@ -8,9 +8,11 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::Format;
 use super::output;
+use super::provenance::provenance;
 use super::sweep::{PAGE, print_summary, write_page};
 use crate::file::CommandFiles;
 use crate::load::LoadError;
+use crate::results::Provenance;
 use crate::sweep::{Missing, SweepSummary, merge as merge_files};
 
 const EXAMPLE: &str = "Example:\n  vibrissa merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -53,12 +55,26 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
     let path = arguments.out.clone().unwrap_or_else(|| first.with_file_name("results.jsonl"));
     let file = read.output("--out", &path)?;
     let page = read.output("--out", &path.with_file_name(PAGE))?;
+    let provenance = of_parts(&merged.origins);
     let _lock = merged.check_path(&path)?;
-    file.write(merged.text()?)?;
+    file.write(merged.text(&provenance)?)?;
     let summary = SweepSummary::new(&merged.sweep, &merged.figures, 0);
-    print_summary(&summary, &path, arguments.format)?;
-    write_page(page, &merged.sweep, &summary, &path, arguments.format)?;
+    print_summary(&provenance, &summary, &path, arguments.format)?;
+    write_page(page, &provenance, &merged.sweep, &summary, &path, arguments.format)?;
     Ok(Exit::Done)
+}
+
+/// The origin of merged results: the runs of all parts, and the commands that made the parts before this one.
+fn of_parts(parts: &[Provenance]) -> Provenance {
+    let own = provenance();
+    let Some(first) = parts.first() else { return own };
+    let mut commands: Vec<&str> = Vec::new();
+    for command in parts.iter().map(|part| part.command.as_str()).chain([own.command.as_str()]) {
+        if !commands.contains(&command) {
+            commands.push(command);
+        }
+    }
+    Provenance { command: commands.join(" && "), date: own.date, ..first.clone() }
 }
 
 /// The results of shards in a directory, in the order of their names, or else those of a whole sweep.

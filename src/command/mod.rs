@@ -29,6 +29,7 @@ mod options;
 mod output;
 mod pareto;
 mod progress;
+mod provenance;
 mod push;
 mod replay;
 mod reports;

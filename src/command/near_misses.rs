@@ -13,6 +13,7 @@ use super::inspect::breakpoints;
 use super::options::{ArrayOptions, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::progress::Progress;
+use super::provenance::of_trials;
 use super::trials::{calibrated, drawn, inputs, make_directory, say_calibrations};
 use crate::built_in::DEFAULT_POLICY;
 use crate::diagnostic::Source;
@@ -81,11 +82,12 @@ pub(super) fn near_misses(arguments: &NearMissArguments) -> Result<Exit, Failure
         listed.extend(misses);
     }
     progress.finish();
+    let provenance = of_trials(all.iter().flat_map(|runs| runs.trials.iter().map(|(_, trial)| trial)));
     if let Some(directory) = &arguments.out {
         let file = files.output("--out", &directory.join("near-misses.json"))?;
-        file.write(output::list(&listed)?)?;
+        file.write(output::list(&provenance, &listed)?)?;
     }
-    output::documents(arguments.format, &listed, || [near_miss_table(&listed)])?;
+    output::documents(arguments.format, &provenance, &listed, || [near_miss_table(&listed)])?;
     Ok(Exit::Done)
 }
 

@@ -9,7 +9,7 @@ use vibrissa_runtime::rig::Rig;
 
 use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
 use crate::report::Table;
-use crate::results::{CalibrationIdentity, Document};
+use crate::results::{CalibrationIdentity, Document, Provenance};
 
 use super::failure::Failure;
 use super::options::Format;
@@ -43,39 +43,42 @@ fn written(text: &str) -> Result<(), Failure> {
 /// Prints documents as a JSON list, or the tables of `tables`.
 pub(super) fn documents<T: AsRef<[Table]>>(
     format: Format,
+    provenance: &Provenance,
     documents: &[impl Document],
     tables: impl FnOnce() -> T,
 ) -> Result<(), Failure> {
-    if format.json { json_list(documents) } else { self::tables(tables().as_ref(), format.wide) }
+    if format.json { json_list(provenance, documents) } else { self::tables(tables().as_ref(), format.wide) }
 }
 
 /// Prints a document as JSON, or the tables of `tables`.
 pub(super) fn document<T: AsRef<[Table]>>(
     format: Format,
+    provenance: &Provenance,
     document: &impl Document,
     tables: impl FnOnce() -> T,
 ) -> Result<(), Failure> {
-    if format.json { json(document) } else { self::tables(tables().as_ref(), format.wide) }
+    if format.json { json(provenance, document) } else { self::tables(tables().as_ref(), format.wide) }
 }
 
 /// Prints a document as JSON.
-pub(super) fn json(document: &impl Document) -> Result<(), Failure> {
-    written(&format!("{}\n", printable_json(&serde_json::to_string_pretty(&document.versioned())?)))
+pub(super) fn json(provenance: &Provenance, document: &impl Document) -> Result<(), Failure> {
+    written(&format!("{}\n", printable_json(&serde_json::to_string_pretty(&document.versioned(Some(provenance)))?)))
 }
 
 /// Prints documents as a list in JSON.
-pub(super) fn json_list(documents: &[impl Document]) -> Result<(), Failure> {
-    written(&format!("{}\n", printable_json(&list(documents)?)))
+pub(super) fn json_list(provenance: &Provenance, documents: &[impl Document]) -> Result<(), Failure> {
+    written(&format!("{}\n", printable_json(&list(provenance, documents)?)))
 }
 
 /// Documents as a list in JSON.
-pub(super) fn list(documents: &[impl Document]) -> serde_json::Result<String> {
-    serde_json::to_string_pretty(&documents.iter().map(Document::versioned).collect::<Vec<_>>())
+pub(super) fn list(provenance: &Provenance, documents: &[impl Document]) -> serde_json::Result<String> {
+    let documents: Vec<_> = documents.iter().map(|document| document.versioned(Some(provenance))).collect();
+    serde_json::to_string_pretty(&documents)
 }
 
-/// A document as a line of JSON, with its line end.
-pub(super) fn json_line(document: &impl Document) -> serde_json::Result<String> {
-    Ok(serde_json::to_string(&document.versioned())? + "\n")
+/// A document as a line of JSON, with its line end. The first line of a file has the origin of all of them.
+pub(super) fn json_line(provenance: Option<&Provenance>, document: &impl Document) -> serde_json::Result<String> {
+    Ok(serde_json::to_string(&document.versioned(provenance))? + "\n")
 }
 
 /// Prints a message.

@@ -11,15 +11,16 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Policies};
 use super::output;
 use super::progress::Progress;
+use super::provenance::of_trials;
 use super::trials::{extended, make_directory};
 use super::values::parse_repeats;
 use crate::built_in::SCENARIOS;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::{self, LoadError, Loaded};
 use crate::report::{pareto_page, pareto_picture, pareto_table};
-use crate::results::Document;
+use crate::results::{Document, Provenance};
 use crate::study::pareto::{Pareto, Setting, measure};
-use crate::trial::check_world;
+use crate::trial::{Trial, check_world};
 
 const EXAMPLE: &str = "Example:\n  vibrissa pareto scenarios/box.yaml --repeats 5 --out out\n  vibrissa pareto --policy policies/thesis.fsm --mismatch scenarios/mismatch/hard.yaml\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -63,6 +64,9 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     let mut wrong = scene.clone();
     scene.mismatch = None;
     given.calibrate_scene(&mut wrong, world.into()).map_err(Failure::calibration(&path))?;
+    let trial =
+        |program: &Arc<Program>| Trial { world: world.into(), ..Trial::new(wrong.clone(), Arc::clone(program)) };
+    let provenance = of_trials(&programs.iter().map(trial).collect::<Vec<_>>());
     make_directory(arguments.out.as_deref())?;
     let report = |program: &Arc<Program>| {
         let stem = |directory: &PathBuf| directory.join(format!("{}-{}-pareto", scene.name, program.name));
@@ -84,13 +88,15 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
             let reason = row.reason.as_deref().unwrap_or("unknown reason");
             output::message(format_args!("{}: {}: {reason}", pareto.policy, row.setting));
         }
-        report.map(|report| report.write(pareto)).transpose()?;
+        report.map(|report| report.write(&provenance, pareto)).transpose()?;
     }
     output::calibrations(measured.iter().filter_map(|pareto| pareto.calibration.as_ref()));
-    output::documents(arguments.format, &measured, || measured.iter().map(pareto_table).collect::<Vec<_>>())?;
+    output::documents(arguments.format, &provenance, &measured, || {
+        measured.iter().map(pareto_table).collect::<Vec<_>>()
+    })?;
     if let Some(page) = page {
         let path = page.path().display().to_string();
-        page.write(pareto_page(&measured))?;
+        page.write(pareto_page(&provenance, &measured))?;
         if !arguments.format.json {
             output::result(format_args!("report: {path}"))?;
         }
@@ -110,8 +116,8 @@ impl Report {
         Ok(Self { results: file("json")?, picture: file("svg")? })
     }
 
-    fn write(self, pareto: &Pareto) -> Result<(), Failure> {
-        self.results.write(serde_json::to_string_pretty(&pareto.versioned())? + "\n")?;
+    fn write(self, provenance: &Provenance, pareto: &Pareto) -> Result<(), Failure> {
+        self.results.write(serde_json::to_string_pretty(&pareto.versioned(Some(provenance)))? + "\n")?;
         self.picture.write(pareto_picture(pareto))?;
         Ok(())
     }

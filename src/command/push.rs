@@ -10,6 +10,7 @@ use vibrissa_robot::store::{self, Keys, PushCommand, Role, SignedMachine};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use super::provenance::provenance;
 use crate::results::Document;
 
 const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  minisign -Sm thesis.machine\n  vibrissa push vibrissa@robot thesis.machine\n\nExit status: 0 the robot has the machine; 2 unusable input, or the robot did not take the machine; 3 internal error; 130 interrupted.";
@@ -76,7 +77,7 @@ pub(super) fn push(arguments: &PushArguments) -> Result<Exit, Failure> {
         Role::Good => ("good", ""),
     };
     if arguments.json {
-        output::json(&Pushed { host, file, hash: answer.hash.to_string(), state })?;
+        output::json(&provenance(), &Pushed { host, file, hash: answer.hash.to_string(), state })?;
     } else {
         output::result(format_args!("{host}: {file} is {state}{next}\n{}", answer.hash))?;
     }

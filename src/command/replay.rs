@@ -13,6 +13,7 @@ use super::failure::Failure;
 use super::live::{LivePage, Speed, begin, serve_on};
 use super::options::Format;
 use super::output;
+use super::provenance::provenance;
 #[cfg(feature = "recording")]
 use super::{diff::explained, inspect::breakpoints};
 use crate::file::CommandFiles;
@@ -90,7 +91,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
         let (path, end) = (named.display(), result.end_s);
         output::message(format_args!("warning: {path}: its end is missing; it was replayed until {end:.3} s"));
     }
-    output::document(arguments.format, &result, || replay_tables(&result))?;
+    output::document(arguments.format, &provenance(), &result, || replay_tables(&result))?;
     Ok(if result.difference.is_none() { Exit::Done } else { Exit::Unexpected })
 }
 
@@ -104,13 +105,13 @@ fn replay_run(
 ) -> Result<Exit, Failure> {
     let Some(policy) = &arguments.policy else {
         let result = crate::recording::replay(run).map_err(Failure::run_recording(path))?;
-        output::document(arguments.format, &result, || replay_tables(&result))?;
+        output::document(arguments.format, &provenance(), &result, || replay_tables(&result))?;
         return Ok(if result.difference.is_none() { Exit::Done } else { Exit::Unexpected });
     };
     let own = run.policy().ok_or_else(|| Failure::NoRecordedText { path: path.to_owned() })?;
     let (own, other) = (breakpoints(own, &[])?, explained(policy, files)?);
     let difference = compare_policies(run, [&own, &other]).map_err(Failure::run_recording(path))?;
-    output::document(arguments.format, &difference, || difference_tables(&difference))?;
+    output::document(arguments.format, &provenance(), &difference, || difference_tables(&difference))?;
     Ok(if difference.first.is_none() { Exit::Done } else { Exit::Unexpected })
 }
 

@@ -8,7 +8,7 @@ use super::output;
 use super::trials::{ReportFiles, make_directory, report_events, report_violations};
 use crate::file::{CommandFiles, Output};
 use crate::report::{RunFigures, results_table, runs_page};
-use crate::results::RunResult;
+use crate::results::{Provenance, RunResult};
 use crate::run::Run;
 use crate::trial::{Trial, TrialResult};
 
@@ -43,7 +43,13 @@ impl Reports {
     }
 
     /// Prints the expectations of the trial with this index that do not hold, and writes its files.
-    pub(super) fn add(&mut self, index: usize, trial: &Trial, finished: &TrialResult) -> Result<(), Failure> {
+    pub(super) fn add(
+        &mut self,
+        provenance: &Provenance,
+        index: usize,
+        trial: &Trial,
+        finished: &TrialResult,
+    ) -> Result<(), Failure> {
         let result = trial.document(finished);
         report_events(&result);
         show_messages(trial, &finished.run);
@@ -52,7 +58,7 @@ impl Reports {
         }
         report_violations(&trial.scene.name, finished);
         if let Some(files) = self.files.get_mut(index).and_then(Option::take) {
-            let figures = files.write(trial, finished, &result)?;
+            let figures = files.write(provenance, trial, finished, &result)?;
             self.figures.push((figures, finished.violations.is_empty()));
         }
         self.results.push(result);
@@ -65,14 +71,14 @@ impl Reports {
     }
 
     /// Prints the results, and writes the page.
-    pub(super) fn show(self, format: Format) -> Result<(), Failure> {
+    pub(super) fn show(self, provenance: &Provenance, format: Format) -> Result<(), Failure> {
         let Self { page, results, figures, .. } = self;
-        output::documents(format, &results, || [results_table(&results)])?;
+        output::documents(format, provenance, &results, || [results_table(&results)])?;
         let Some(page) = page else { return Ok(()) };
         let runs: Vec<_> =
             results.iter().zip(&figures).map(|(result, (figures, passed))| (result, figures, *passed)).collect();
         let path = page.path().display().to_string();
-        page.write(runs_page(&runs))?;
+        page.write(runs_page(provenance, &runs))?;
         if format.json { Ok(()) } else { output::result(format_args!("report: {path}")) }
     }
 }

@@ -14,6 +14,7 @@ use super::inspect::{InspectionOptions, inspect};
 use super::live::LivePage;
 use super::options::{ArrayOptions, Format, Settings, WorldOptions};
 use super::output;
+use super::provenance::of_trials;
 use super::reports::Reports;
 use super::run_outputs::RunOutputs;
 #[cfg(any(feature = "render", feature = "viewer"))]
@@ -25,7 +26,7 @@ use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
 use crate::load::{GivenMismatch, LoadError, check_noise_seed};
 use crate::request::{Input, PolicyInput, TrialRequest};
-use crate::results::tick_lines;
+use crate::results::{Provenance, tick_lines};
 use crate::run::Run;
 use crate::trial::Trial;
 
@@ -96,6 +97,7 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let prepared = prepared_trials(arguments, &mut files)?;
     let trials = prepared.iter().map(|prepared| &prepared.trial);
     let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
+    let provenance = of_trials(prepared.iter().map(|prepared| &prepared.trial));
     let mut ticks = TickFile::new(arguments, &mut files)?;
     let mut outputs = RunOutputs::new(arguments, &mut files)?;
     let (mut exit, mut written) = (Exit::Done, Ok(()));
@@ -103,14 +105,14 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
         let trial = &prepared.trial;
         let (finished, of_run) = outputs.run(prepared)?;
         written = written.and(of_run);
-        reports.add(index, trial, &finished)?;
+        reports.add(&provenance, index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;
         }
-        ticks.add(trial, &finished.run)?;
+        ticks.add(&provenance, trial, &finished.run)?;
     }
     ticks.write()?;
-    reports.show(arguments.format)?;
+    reports.show(&provenance, arguments.format)?;
     outputs.serve_on();
     written.map(|()| exit)
 }
@@ -138,10 +140,10 @@ impl TickFile {
     }
 
     /// Adds the ticks of a run.
-    pub(super) fn add(&mut self, trial: &Trial, run: &Run) -> Result<(), Failure> {
+    pub(super) fn add(&mut self, provenance: &Provenance, trial: &Trial, run: &Run) -> Result<(), Failure> {
         if self.file.is_some() {
             for line in tick_lines(&trial.scene.name, &run.trace, trial.assumed_rig.sensing.friction) {
-                self.lines += &output::json_line(&line)?;
+                self.lines += &output::json_line(self.lines.is_empty().then_some(provenance), &line)?;
             }
         }
         Ok(())

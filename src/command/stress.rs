@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::options::{Format, Jobs};
 use super::output;
 use super::progress::Progress;
+use super::provenance::{provenance, simulator};
 use crate::report::stress_tables;
 use crate::scene::WorldKind;
 use crate::study::stress::{StressRow, StressTask};
@@ -57,7 +58,13 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     }
     rows.sort_by_key(|(index, _)| *index);
     let rows: Vec<StressRow> = rows.into_iter().map(|(_, row)| row).collect();
-    output::documents(arguments.format, &rows, || stress_tables(&rows))?;
+    let mut provenance = provenance();
+    for row in &rows {
+        let (StressRow::Case { name, world, .. } | StressRow::Step { name, world, .. }) = row;
+        provenance.add_scene(name);
+        provenance.add_simulator(simulator(world));
+    }
+    output::documents(arguments.format, &provenance, &rows, || stress_tables(&rows))?;
     Ok(if rows.iter().all(StressRow::is_sound) { Exit::Done } else { Exit::Unexpected })
 }
 

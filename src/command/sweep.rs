@@ -12,11 +12,13 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Jobs, PruneOption};
 use super::output;
 use super::progress::{Kept, Progress};
+use super::provenance::of_trials;
 use super::trials::make_directory;
 use crate::file::{CommandFiles, Output};
 use crate::report::{summary_table, sweep_page};
+use crate::results::{Provenance, SeedRange, add_seeds};
 use crate::sweep::{
-    Plan, Results, RunRow, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line, run_rows,
+    Plan, Results, RunRow, ScenesOf, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line, run_rows,
 };
 use crate::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
 
@@ -93,8 +95,9 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let path = directory.join(arguments.shard.file_name());
     files.growing("--out", &path)?;
     let page = files.output("--out", &directory.join(PAGE))?;
+    let provenance = of_sweep(&plan)?;
     let header = plan.header(arguments.shard);
-    let (mut results, mut done) = Results::open(&path, &header, sweep)?;
+    let (mut results, mut done) = Results::open(&path, &header, &provenance, sweep)?;
     let resumed = done.len();
     let runs = sweep.runs().filter(|run| arguments.shard.has(&run.key()));
     let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
@@ -127,12 +130,37 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     }
     output::calibrations(calibrations.iter());
     let summary = SweepSummary::new(sweep, &done, resumed);
-    print_summary(&summary, &path, arguments.format)?;
+    print_summary(&provenance, &summary, &path, arguments.format)?;
     // The page of a part would show a part of the sweep. `merge` writes that of the whole.
     if arguments.shard == Shard::WHOLE {
-        write_page(page, sweep, &summary, &path, arguments.format)?;
+        write_page(page, &provenance, sweep, &summary, &path, arguments.format)?;
     }
     Ok(if summary.without_result() == 0 { Exit::Done } else { Exit::Unexpected })
+}
+
+/// The origin of the results of a sweep.
+fn of_sweep(plan: &Plan) -> Result<Provenance, Failure> {
+    let samples: Vec<_> = plan.sweep.samples().collect();
+    let trials = samples.iter().map(|run| plan.trial(run)).collect::<Result<Vec<_>, _>>()?;
+    let mut provenance = of_trials(&trials);
+    (provenance.scenes, provenance.seeds) = (Vec::new(), Vec::new());
+    for (run, trial) in samples.iter().zip(&trials) {
+        let (scenes, first) = (run.scenes(), trial.seed.wrapping_sub(run.trial));
+        let last = scenes.trials.saturating_sub(1);
+        let seeds = match scenes.of {
+            ScenesOf::Family(_) => SeedRange { first: scenes.family_seed(), last: scenes.family_seed() },
+            ScenesOf::Scenario(_) => SeedRange { first, last: first.saturating_add(last) },
+        };
+        provenance.add_scene(&format!("{}, trials 0 to {last}", scenes.name()));
+        add_seeds(&mut provenance.seeds, seeds);
+    }
+    for mismatch in &mut provenance.mismatches {
+        let most = plan.sweep.scenes().iter().map(|scenes| scenes.trials).max().unwrap_or(1);
+        if let Some(seeds) = mismatch.seeds.first_mut() {
+            seeds.last = seeds.first.saturating_add(most.saturating_sub(1));
+        }
+    }
+    Ok(provenance)
 }
 
 /// A process for runs: another instance of this program. A crash ends only one run.
@@ -154,15 +182,20 @@ fn line(sweep: &Sweep, index: u64, answer: Result<Answer, StartError>) -> Result
     Ok(match (answer?, sweep.run(index)) {
         (Answer::Crash(reason), Some(run)) => {
             output::message(format_args!("{}: crashed: {reason}", run.key()));
-            output::json_line(&SweepLine::crashed(&run, reason))?
+            output::json_line(None, &SweepLine::crashed(&run, reason))?
         }
         (Answer::Line(line) | Answer::Crash(line), _) => line,
     })
 }
 
 /// Prints the summary of the runs whose results are at `path`.
-pub(super) fn print_summary(summary: &SweepSummary, path: &Path, format: Format) -> Result<(), Failure> {
-    output::document(format, summary, || [summary_table(&summary.groups)])?;
+pub(super) fn print_summary(
+    provenance: &Provenance,
+    summary: &SweepSummary,
+    path: &Path,
+    format: Format,
+) -> Result<(), Failure> {
+    output::document(format, provenance, summary, || [summary_table(&summary.groups)])?;
     if format.json {
         return Ok(());
     }
@@ -172,6 +205,7 @@ pub(super) fn print_summary(summary: &SweepSummary, path: &Path, format: Format)
 /// Writes the page of a sweep whose results are at `path`.
 pub(super) fn write_page(
     page: Output,
+    provenance: &Provenance,
     sweep: &Sweep,
     summary: &SweepSummary,
     path: &Path,
@@ -182,7 +216,7 @@ pub(super) fn write_page(
         let name = format!("{PICTURES}/{}.svg", row.run);
         path.with_file_name(&name).is_file().then_some(name)
     };
-    let text = sweep_page(summary, &rows, picture);
+    let text = sweep_page(provenance, summary, &rows, picture);
     let written = page.path().display().to_string();
     page.write(text)?;
     if format.json { Ok(()) } else { output::result(format_args!("report: {written}")) }

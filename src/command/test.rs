@@ -13,6 +13,7 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
+use super::provenance::{of_runs, of_trials};
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
 use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar};
 use crate::diagnostic::{Diagnostic, Record, Source, Span, records};
@@ -148,7 +149,8 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     output::calibrations(results.filter_map(|result| result.calibration.as_ref()));
     let failed = tested.iter().filter(|tested| !tested.passed).count();
     if arguments.json {
-        output::json_list(&tested)?;
+        let provenance = of_runs(tested.iter().filter_map(|tested| tested.result.as_ref()));
+        output::json_list(&provenance, &tested)?;
     } else {
         output::result(format_args!("{count} test{}, {failed} failed", if count == 1 { "" } else { "s" }))?;
     }
@@ -214,7 +216,7 @@ fn run_test(
     let result = trial.document(&finished);
     let faults = violations(test, &trial.program, &finished);
     if let Some(report) = report {
-        report.files.write(trial, &finished, &result)?;
+        report.files.write(&of_trials([trial]), trial, &finished, &result)?;
     }
     if !json {
         print_verdict(source, test, &result, &faults)?;
@@ -244,7 +246,7 @@ fn run_property(
         test_property::print_verdict(source, property, &cases, failing.as_ref())?;
     }
     if let (Some(failing), Some(Report { files, scenario })) = (&failing, report) {
-        files.write(&failing.trial, &failing.finished, &failing.result)?;
+        files.write(&of_trials([&failing.trial]), &failing.trial, &failing.finished, &failing.result)?;
         scenario.map(|file| file.write(failing.scenario.as_str())).transpose()?;
     }
     if let Some(failing) = failing.as_ref().filter(|failing| failing.is_new && !search.no_keep) {

@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::options::Format;
 use super::output;
 use super::progress::Progress;
+use super::provenance::of_trials;
 use super::trials::{calibrated, say_calibrations};
 use super::values::parse_repeats;
 use crate::file::CommandFiles;
@@ -54,6 +55,8 @@ pub(super) fn timing(arguments: &TimingArguments) -> Result<Exit, Failure> {
             TimingRow::new(scene, policy, trial.world.kind.to_string(), times)
         })
         .collect();
-    output::documents(arguments.format, &rows, || [timing_table(&rows)])?;
+    output::documents(arguments.format, &of_trials(trials.iter().map(|(_, trial)| trial)), &rows, || {
+        [timing_table(&rows)]
+    })?;
     Ok(if rows.iter().all(|row| row.outcome.met_its_stop()) { Exit::Done } else { Exit::Unexpected })
 }

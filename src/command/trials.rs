@@ -15,7 +15,7 @@ use crate::diagnostic::printable;
 use crate::file::{CommandFiles, Output, OutputError};
 use crate::load::GivenMismatch;
 use crate::report::{RunFigures, retrieval_picture};
-use crate::results::{Collisions, Document, Ending, Failsafes, Inclination, RunResult, WhiskerResponse};
+use crate::results::{Collisions, Document, Ending, Failsafes, Inclination, Provenance, RunResult, WhiskerResponse};
 use crate::run::{Trace, Watcher};
 use crate::scene::{Outcome, Violation};
 use crate::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
@@ -205,6 +205,7 @@ impl ReportFiles {
     /// Writes the pictures and the result, and returns the figures.
     pub(super) fn write(
         self,
+        provenance: &Provenance,
         trial: &Trial,
         result: &TrialResult,
         document: &RunResult,
@@ -215,7 +216,7 @@ impl ReportFiles {
             Some(strips) => self.retrievals.write(strips)?,
             None => self.retrievals.remove()?,
         }
-        self.result.write(serde_json::to_string_pretty(&document.versioned())? + "\n")?;
+        self.result.write(serde_json::to_string_pretty(&document.versioned(Some(provenance)))? + "\n")?;
         Ok(figures)
     }
 }

@@ -13,6 +13,7 @@ use super::output;
 use super::progress::{Kept, Progress};
 use super::trials::calibrated;
 use crate::load::GivenMismatch;
+use crate::results::Provenance;
 use crate::sweep::Results;
 use crate::trial::stream_in_parallel;
 use crate::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
@@ -62,11 +63,17 @@ pub(super) struct TuningRuns<'a> {
 
 impl<'a> TuningRuns<'a> {
     /// Opens the file of results, and reads the runs that it has.
-    pub(super) fn open(path: PathBuf, header: &TuningHeader, work: TuningWork<'a>) -> Result<Self, Failure> {
+    pub(super) fn open(
+        path: PathBuf,
+        header: &TuningHeader,
+        provenance: &Provenance,
+        work: TuningWork<'a>,
+    ) -> Result<Self, Failure> {
         let mut done = BTreeMap::new();
         let results = Results::open_with(
             &path,
             header,
+            provenance,
             |found| found.difference(header),
             |line| {
                 let TuningLine { scene, settings, run } =
@@ -102,7 +109,7 @@ impl<'a> TuningRuns<'a> {
         let mut keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
             let run = run?;
             let Some(&(candidate, scene)) = tasks.get(index) else { return Ok(()) };
-            results.add(&output::json_line(&TuningLine::new(candidate, scene, run))?)?;
+            results.add(&output::json_line(None, &TuningLine::new(candidate, scene, run))?)?;
             finished.insert((candidate.settings(), scene.name.clone()), run);
             if let Some(progress) = progress {
                 progress.done(format_args!("{}: cost {:.3}", scene.name, run.cost));

@@ -11,6 +11,7 @@ use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
+use crate::results::Provenance;
 use crate::run::{Trace, Watcher as RunWatcher};
 use crate::score::Statistics;
 use crate::trial::{ExecuteError, Trial, TrialResult};
@@ -20,6 +21,7 @@ use super::failure::Failure;
 #[cfg(feature = "live")]
 use super::live::{REAL_TIME, begin};
 use super::output;
+use super::provenance::of_trials;
 use super::reports::Reports;
 use super::run::{self, Prepared, RunArguments};
 use super::trials::{make_directory, run_each_second, seconds};
@@ -62,7 +64,7 @@ pub(super) fn watch(arguments: &RunArguments) -> Result<Exit, Failure> {
         match trials.and_then(|trials| run_all(&trials, arguments, &mut files, run)) {
             Err(Failure::Execute { cause: ExecuteError::Interrupted, .. }) => continue,
             Err(failure) => failure.report(),
-            Ok(reports) => reports.show(arguments.format)?,
+            Ok((provenance, reports)) => reports.show(&provenance, arguments.format)?,
         }
         output::message(format_args!("watching {} files; Ctrl-C ends", watch.files.len()));
         watch.wait();
@@ -74,13 +76,14 @@ fn run_all(
     arguments: &RunArguments,
     files: &mut CommandFiles,
     run: impl Fn(&Prepared) -> Result<TrialResult, Failure>,
-) -> Result<Reports, Failure> {
+) -> Result<(Provenance, Reports), Failure> {
+    let provenance = of_trials(trials.iter().map(|prepared| &prepared.trial));
     let mut reports = Reports::new(trials.iter().map(|prepared| &prepared.trial), arguments.out.as_deref(), files)?;
     for (index, prepared) in trials.iter().enumerate() {
         let finished = run(prepared)?;
-        reports.add(index, &prepared.trial, &finished)?;
+        reports.add(&provenance, index, &prepared.trial, &finished)?;
     }
-    Ok(reports)
+    Ok((provenance, reports))
 }
 
 /// Runs a trial and prints a line for every simulated second. A change of a file interrupts it.

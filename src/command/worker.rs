@@ -53,7 +53,7 @@ pub(super) fn worker(arguments: &WorkerArguments) -> Result<Exit, Failure> {
     let mismatch = arguments.array.load(&mut files)?;
     let plan = Plan::read(file, !arguments.prune.no_prune, mismatch, &mut files)?;
     serve(&plan.header(Shard::WHOLE).fingerprint(), |index| {
-        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run, arguments).versioned()))
+        plan.sweep.run(index).map(|run| serde_json::to_string(&line(&plan, &run, arguments).versioned(None)))
     })
 }
 

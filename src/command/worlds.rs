@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::options::{Format, Jobs, Policies};
 use super::output;
 use super::progress::Progress;
+use super::provenance::{provenance, simulator};
 use crate::built_in::{SCENARIOS, TextFile};
 use crate::file::CommandFiles;
 use crate::load;
@@ -79,6 +80,17 @@ pub(super) fn worlds(arguments: &WorldsArguments) -> Result<Exit, Failure> {
             output::message(format_args!("{}, {}, {}: {reason}", row.scenario, row.policy, row.simulation));
         }
     }
-    output::documents(arguments.format, &rows, || [worlds_table(&rows)])?;
+    let mut provenance = provenance();
+    for row in &rows {
+        provenance.add_scene(&row.scenario);
+        provenance.add_policy(&row.policy);
+    }
+    for kind in [WorldKind::Mujoco, WorldKind::QuasiStatic] {
+        let is_used = |against: &SimulationName| matches!(against, SimulationName::QuasiStatic);
+        if kind == WorldKind::Mujoco || arguments.against.iter().any(is_used) {
+            provenance.add_simulator(simulator(kind.name()));
+        }
+    }
+    output::documents(arguments.format, &provenance, &rows, || [worlds_table(&rows)])?;
     Ok(Exit::Done)
 }

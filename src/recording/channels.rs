@@ -120,7 +120,7 @@ impl Channels {
         log_json(&self.samples, &SamplesMessage::new(&frame.samples, self.rig_whiskers), at)?;
         if let Some((transitions, guards)) = explained {
             for line in transitions {
-                log_json(&self.transitions, &line.versioned(), at)?;
+                log_json(&self.transitions, &line.versioned(None), at)?;
             }
             log_json(&self.guards, &GuardsMessage { guards }, at)?;
         }
@@ -142,7 +142,7 @@ impl Channels {
         }
         self.fill_trace(frame);
         for line in tick_lines(&self.scenario, &self.trace, self.friction) {
-            log_json(&self.ticks, &line.versioned(), at)?;
+            log_json(&self.ticks, &line.versioned(None), at)?;
         }
         (self.count, self.end) = (self.count + 1, time);
         Ok(())

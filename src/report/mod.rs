@@ -11,8 +11,8 @@ mod table;
 mod tables;
 
 pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
-pub(crate) use page::sweep_page;
 pub use page::{RunFigures, bench_page, comparison_page, pareto_page, runs_page};
+pub(crate) use page::{families_page, sweep_page};
 pub(crate) use picture::profile_picture;
 pub use picture::{pareto_picture, picture, retrieval_picture};
 #[cfg(any(feature = "render", feature = "viewer"))]

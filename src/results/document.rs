@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::Provenance;
+
 /// A JSON output of a command: an object with the name of its format and the version of the format.
 ///
 /// The version is raised if a key is removed, renamed or changes its meaning. A new key does not raise it.
@@ -12,18 +14,20 @@ pub trait Document: Serialize {
     /// Its version.
     const VERSION: u32 = 1;
 
-    /// The document with its format and version, to be serialised.
-    fn versioned(&self) -> Versioned<'_, Self> {
-        Versioned { format: Self::FORMAT, version: Self::VERSION, document: self }
+    /// The document with its format, version and origin, to be serialised. Lines of a file after the first have no origin of their own.
+    fn versioned<'d>(&'d self, provenance: Option<&'d Provenance>) -> Versioned<'d, Self> {
+        Versioned { format: Self::FORMAT, version: Self::VERSION, provenance, document: self }
     }
 }
 
-/// A document with its format and version before its own keys.
+/// A document with its format, version and origin before its own keys.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Versioned<'d, D: ?Sized> {
     format: &'static str,
     version: u32,
+    /// The origin. `None` in the lines of a file after the first, and in the messages of a recording.
+    provenance: Option<&'d Provenance>,
     #[serde(flatten)]
     document: &'d D,
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{Ending, Rate, RunResult};
+use crate::score::Statistics;
 
 /// The figures of a run that are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,6 +115,8 @@ pub struct Tally {
     pub rates: Option<Rates>,
     /// Mean of the mean errors of the completed runs (mm).
     pub error_mean_mm: Option<f64>,
+    /// The 95 % interval of that mean. `None` with fewer than two completed runs.
+    pub error_mean_interval_mm: Option<[f64; 2]>,
     /// Mean of the 95th percentiles of the errors of the completed runs (mm).
     pub error_p95_mm: Option<f64>,
     /// Share of outliers among the tips of all runs, 0 to 1.
@@ -160,6 +163,8 @@ impl Tally {
             collision_free: count(&|run| !run.collided && run.ending.took_place()),
             rates: None,
             error_mean_mm: mean(completed().filter_map(|run| run.error_mean_mm)),
+            error_mean_interval_mm: Statistics::of(completed().filter_map(|run| run.error_mean_mm).collect())
+                .and_then(|errors| errors.mean_interval()),
             error_p95_mm: mean(completed().filter_map(|run| run.error_p95_mm)),
             outliers: tips.outlier_share(),
             within_band: tips.within_band_share(),

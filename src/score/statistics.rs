@@ -1,5 +1,10 @@
 //! Statistics of a set of numbers.
 
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Confidence level of an interval of a mean.
+const CONFIDENCE: f64 = 0.95;
+
 /// A sorted, non-empty set of numbers.
 ///
 /// ```
@@ -41,6 +46,19 @@ impl Statistics {
         let mean = self.mean();
         let squares: f64 = self.sorted.iter().map(|value| (value - mean).powi(2)).sum();
         (self.count() > 1).then(|| (squares / (self.count() - 1) as f64).sqrt())
+    }
+
+    /// The 95 % confidence interval of the mean of the population by Student's t. `None` for a single value.
+    ///
+    /// Samples are often small. With ten values a percentile bootstrap covers the mean in only some 90 % of cases, with five in
+    /// some 80 %. Student's t stays close to 95 % even for values that are far from normal.
+    #[must_use]
+    pub fn mean_interval(&self) -> Option<[f64; 2]> {
+        let std = self.std()?;
+        let count = self.count() as f64;
+        let quantile = StudentsT::new(0.0, 1.0, count - 1.0).ok()?.inverse_cdf(0.5 + 0.5 * CONFIDENCE);
+        let half = quantile * std / count.sqrt();
+        Some([self.mean() - half, self.mean() + half])
     }
 
     /// The percentile for `percent` (0 to 100), by linear interpolation. The `k`-th of `n` sorted numbers, counted from

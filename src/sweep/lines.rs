@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::results::Document;
+use crate::results::{Document, Provenance};
 
 use super::results::ResultsError;
 
@@ -19,6 +19,8 @@ pub(super) const LINE_LIMIT: usize = 16 << 20;
 #[derive(Deserialize)]
 struct Preamble {
     version: Option<u32>,
+    #[serde(default)]
+    provenance: Option<Provenance>,
 }
 
 /// A reader of results, from the first line on.
@@ -29,12 +31,14 @@ pub(super) struct Lines<'f> {
     number: usize,
     /// Number of bytes of these lines.
     whole: u64,
+    /// The origin of the results, after the header has been read.
+    pub(super) provenance: Option<Provenance>,
 }
 
 impl<'f> Lines<'f> {
     /// A reader at the beginning of a file.
     pub(super) fn new(path: &'f Path, file: &'f File) -> Self {
-        Self { path, reader: BufReader::new(file), number: 0, whole: 0 }
+        Self { path, reader: BufReader::new(file), number: 0, whole: 0, provenance: None }
     }
 
     /// The header. `None` if the first line is not complete.
@@ -52,6 +56,7 @@ impl<'f> Lines<'f> {
                     "it has {version} of the format, and this program reads version {this}"
                 )));
             }
+            self.provenance = preamble.provenance;
             let header = serde_json::from_slice(&text);
             return header.map(Some).map_err(|cause| no_results(cause.to_string()));
         }

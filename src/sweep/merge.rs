@@ -12,7 +12,7 @@ use super::results::{self, ResultsError, check_path};
 use super::shard::Shard;
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
-use crate::results::Figures;
+use crate::results::{Figures, Provenance};
 use crate::sweep::Sweep;
 
 /// The results of all parts of a sweep.
@@ -20,6 +20,8 @@ use crate::sweep::Sweep;
 pub(crate) struct Merged {
     /// The header, with the part of the first file.
     pub header: Header,
+    /// The origins of the files, as far as they state them.
+    pub origins: Vec<Provenance>,
     /// The sweep.
     pub sweep: Sweep,
     /// The lines of the runs by index.
@@ -63,6 +65,7 @@ pub(crate) fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Optio
                 merged
             }
         };
+        merged.origins.extend(lines.provenance.take());
         while let Some((number, line)) = lines.next()? {
             let wrong = |cause| ResultsError::Line { path: path.clone(), line: number, cause };
             let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
@@ -85,7 +88,7 @@ impl Merged {
             of: Header::FORMAT,
             cause: "this version of the program cannot read the sweep that it holds".to_owned(),
         })?;
-        Ok(Self { header, sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
+        Ok(Self { header, origins: Vec::new(), sweep, lines: BTreeMap::new(), figures: BTreeMap::new() })
     }
 
     /// Checks that the results may be written to `path`. While the returned file is open, no sweep writes to it.
@@ -105,12 +108,12 @@ impl Merged {
         })
     }
 
-    /// The results as text, in the order of the runs.
+    /// The results as text, in the order of the runs, with their origin.
     ///
     /// # Errors
     /// If the header cannot be written as JSON, which would be a fault of the program.
-    pub(crate) fn text(&self) -> serde_json::Result<String> {
-        let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE).versioned())?;
+    pub(crate) fn text(&self, provenance: &Provenance) -> serde_json::Result<String> {
+        let mut text = serde_json::to_string(&self.header.of_shard(Shard::WHOLE).versioned(Some(provenance)))?;
         for line in self.lines.values() {
             text.push('\n');
             text += line;

@@ -27,4 +27,4 @@ pub(crate) use run_row::{RunRow, run_rows};
 pub use scenes::ScenesOf;
 pub(crate) use scenes::SweepScenes;
 pub use shard::Shard;
-pub(crate) use summary::{SweepGroup, SweepSummary};
+pub(crate) use summary::{SweepCurve, SweepGroup, SweepPoint, SweepSummary};

@@ -12,7 +12,7 @@ use super::header::Header;
 use super::line::read_line;
 use super::lines::{LINE_LIMIT, Lines};
 use crate::file;
-use crate::results::Figures;
+use crate::results::{Figures, Provenance};
 use crate::sweep::Sweep;
 
 /// The error of a file of results.
@@ -109,12 +109,13 @@ impl Results {
     pub(crate) fn open(
         path: &Path,
         header: &Header,
+        provenance: &Provenance,
         sweep: &Sweep,
     ) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
         let indices = indices(sweep);
         let mut there = BTreeMap::new();
         let differs = |found: &Header| difference(found, header);
-        let results = Self::open_with(path, header, differs, |line| {
+        let results = Self::open_with(path, header, provenance, differs, |line| {
             let (key, figures) = read_line(line).map_err(|cause| cause.to_string())?;
             let index = indices.get(&key).filter(|_| header.shard.has(&key));
             let index = *index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
@@ -133,6 +134,7 @@ impl Results {
     pub(crate) fn open_with<H: Document + DeserializeOwned>(
         path: &Path,
         header: &H,
+        provenance: &Provenance,
         differs: impl Fn(&H) -> Option<String>,
         mut each: impl FnMut(&str) -> Result<(), String>,
     ) -> Result<Self, ResultsError> {
@@ -150,7 +152,8 @@ impl Results {
         file.set_len(whole).map_err(&failed)?;
         let mut results = Self { path: path.to_owned(), file };
         if found.is_none() {
-            let header = serde_json::to_string(&header.versioned()).map_err(io::Error::from).map_err(&failed)?;
+            let header =
+                serde_json::to_string(&header.versioned(Some(provenance))).map_err(io::Error::from).map_err(&failed)?;
             results.add(&header)?;
             file::sync_name(path).map_err(&failed)?;
         }

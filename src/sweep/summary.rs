@@ -18,6 +18,31 @@ pub(crate) struct SweepSummary {
     pub resumed: usize,
     /// Its runs in groups, in the order of the sweep.
     pub groups: Vec<SweepGroup>,
+    /// Counts over the values of each axis for each policy, over all scenes and all values of the other axes.
+    pub curves: Vec<SweepCurve>,
+}
+
+/// The runs of one policy over the values of one axis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct SweepCurve {
+    /// The axis.
+    pub axis: String,
+    /// The policy.
+    pub policy: String,
+    /// Its values in the order of the sweep.
+    pub points: Vec<SweepPoint>,
+}
+
+/// The runs of one policy with one value of an axis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct SweepPoint {
+    /// The value as written in the sweep.
+    pub value: String,
+    /// Counts over the runs.
+    #[serde(flatten)]
+    pub tally: Tally,
 }
 
 impl Document for SweepSummary {
@@ -55,7 +80,7 @@ impl SweepSummary {
             policy: run.policy().name.clone(),
             tally: Tally::new(figures),
         });
-        Self { sweep: sweep.name().to_owned(), resumed, groups: groups.collect() }
+        Self { sweep: sweep.name().to_owned(), resumed, groups: groups.collect(), curves: curves(sweep, runs) }
     }
 
     /// Number of runs that crashed or could not begin.
@@ -63,4 +88,31 @@ impl SweepSummary {
     pub(crate) fn without_result(&self) -> usize {
         self.groups.iter().map(|group| group.tally.crashed + group.tally.refused).sum()
     }
+}
+
+/// The curves of all axes with several values, by axis and then by policy.
+fn curves(sweep: &Sweep, runs: &BTreeMap<u64, Figures>) -> Vec<SweepCurve> {
+    // The values of an axis are in the order of their first runs, which is that of the sweep.
+    let mut curves: Vec<(String, String, Vec<(String, Vec<Figures>)>)> = Vec::new();
+    let known = runs.iter().filter_map(|(&index, &figures)| Some((sweep.run(index)?, figures)));
+    for (run, figures) in known {
+        for (axis, value) in run.settings() {
+            let policy = &run.policy().name;
+            let place = curves.iter().position(|curve| curve.0 == axis && curve.1 == *policy).unwrap_or_else(|| {
+                curves.push((axis.to_owned(), policy.clone(), Vec::new()));
+                curves.len() - 1
+            });
+            let points = &mut curves[place].2;
+            match points.iter_mut().find(|(known, _)| *known == value) {
+                Some((_, all)) => all.push(figures),
+                None => points.push((value, vec![figures])),
+            }
+        }
+    }
+    curves.sort_by(|a, b| a.0.cmp(&b.0));
+    let curve = |(axis, policy, points): (String, String, Vec<(String, Vec<Figures>)>)| {
+        let points = points.into_iter().map(|(value, runs)| SweepPoint { value, tally: Tally::new(runs) }).collect();
+        SweepCurve { axis, policy, points }
+    };
+    curves.into_iter().filter(|(.., points)| points.len() > 1).map(curve).collect()
 }

@@ -22,4 +22,5 @@ pub use worker::{Answer, StartError, Worker, answer};
 pub(crate) use worlds::build_world;
 pub(crate) use worlds::check_world;
 pub(crate) use worlds::model;
+pub(crate) use worlds::simulator_version;
 pub use worlds::{ExecuteError, engine_version};

@@ -91,6 +91,12 @@ pub fn engine_version() -> String {
     format!("{} with {}", env!("CARGO_PKG_VERSION"), mujoco_version())
 }
 
+/// The version of a simulator. That of the quasi-static one is this program's.
+#[must_use]
+pub(crate) fn simulator_version(name: &str) -> &'static str {
+    if name == WorldKind::QuasiStatic.name() { env!("CARGO_PKG_VERSION") } else { mujoco_version() }
+}
+
 /// The version of MuJoCo, if this build has it and its library can be loaded.
 fn mujoco_version() -> &'static str {
     #[cfg(feature = "sim")]

@@ -36,7 +36,7 @@ impl Result {
         scored: TrialResult,
         recorded: Option<Vec<Vec<Sample>>>,
     ) -> PyResult<Self> {
-        let text = serde_json::to_string(&trial.document(&scored).versioned()).map_err(error)?;
+        let text = serde_json::to_string(&trial.document(&scored).versioned(None)).map_err(error)?;
         let figures = py.import("json")?.call_method1("loads", (text,))?.cast_into::<PyDict>()?;
         let width = trial.assumed_rig.whiskers.len();
         let samples = recorded.map(|recorded| samples::dictionary(py, &recorded, width).map(Bound::unbind));

@@ -25,8 +25,8 @@ def program():
 
 
 def timeless(figures):
-    """Figures without those that depend on the clock, and without those of the bench alone."""
-    clock = {"format", "version", "start_s", "wall_s", "realtime", "tick_us"}
+    """Figures without the origin, those that depend on the clock, and without those of the bench alone."""
+    clock = {"format", "version", "provenance", "start_s", "wall_s", "realtime", "tick_us"}
     bench = {"conditions", "baseline", "verdicts", "passed"}
     figures = {key: value for key, value in figures.items() if key not in clock | bench}
     if figures["calibration"]:

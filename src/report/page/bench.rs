@@ -7,7 +7,7 @@ use super::document::page;
 use super::run::{PageRun, RunFigures, address, overview, section};
 use super::table::{Judgement, PageCell, PageTable};
 use crate::report::tables::bench::{HEADINGS, NAMES, cells};
-use crate::results::Ending;
+use crate::results::{Ending, Provenance};
 use crate::study::bench::{BenchRow, Verdict};
 use crate::study::compare::Changes;
 
@@ -16,7 +16,12 @@ const OUTCOME: usize = 2;
 
 /// A page with the table of the bench, the figures of every run, and the changes since an older report. It needs no other file.
 #[must_use]
-pub fn bench_page(rows: &[BenchRow], figures: &[RunFigures], changes: Option<&Changes>) -> String {
+pub fn bench_page(
+    provenance: &Provenance,
+    rows: &[BenchRow],
+    figures: &[RunFigures],
+    changes: Option<&Changes>,
+) -> String {
     let passed = rows.iter().filter(|row| row.passed).count();
     let runs = rows.iter().zip(figures).map(|(row, figures)| PageRun {
         scene: row.scene(),
@@ -38,7 +43,7 @@ pub fn bench_page(rows: &[BenchRow], figures: &[RunFigures], changes: Option<&Ch
         section { h2 { "Figures" } (table(rows).markup()) }
         @for (index, run) in runs.iter().enumerate() { (section(index, run)) }
     };
-    page("Vibrissa bench", &introduction, &sections)
+    page("Vibrissa bench", provenance, &introduction, &sections)
 }
 
 fn table(rows: &[BenchRow]) -> PageTable {

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::report::number::significant as number;
 use crate::study::compare::{Changes, FigureComparison, Outlook};
 
 /// The changes since an older report.
@@ -52,16 +53,6 @@ fn sentence(figure: &FigureComparison) -> Markup {
         code { (name) } " " (verb) " from " (number(*first)) " to " (number(*mean)) ", by " (number(size))
         " (" @if let Some(interval) = &interval { (interval) ", " } (pairs) " pairs, " (wins) " better, " (losses) " worse): " (judgement) "."
     }
-}
-
-/// A number with three significant digits.
-fn number(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 9")]
-    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{value:.decimals$}")
 }
 
 #[cfg(test)]

@@ -5,19 +5,47 @@ use maud::html;
 use super::changes::sentences;
 use super::document::page;
 use super::table::{Judgement, PageTable};
-use crate::report::tables::comparison_tables;
-use crate::study::compare::{Comparison, Outlook};
+use crate::report::tables::comparison::{figures_table, runs_table};
+use crate::results::Provenance;
+use crate::study::compare::{Comparison, FigureComparison, Outlook};
 
 /// The column of the verdict.
-const VERDICT: usize = 2;
+const VERDICT: usize = 3;
 
 /// A page with the tables of a comparison, and its differences in words. It needs no other file.
 #[must_use]
-pub fn comparison_page(comparison: &Comparison) -> String {
-    let [runs, figures] = comparison_tables(comparison);
+pub fn comparison_page(provenance: &Provenance, comparison: &Comparison) -> String {
     let first = comparison.policies.first().map_or("", |first| first.policy.as_str());
-    let mut figures = PageTable::new("comparison", &figures);
-    for (row, figure) in figures.rows.iter_mut().zip(&comparison.figures) {
+    let introduction = html! {
+        p.lead { "Compared with " (first) ", over pairs of runs with the same scene, start and noise." }
+        p {
+            "Each difference is that of the policy minus that of " (first) ", as the mean over all pairs, with its 95 % interval by \
+             Student's t. A figure is better or worse if the interval does not contain zero."
+        }
+    };
+    let sections = html! {
+        section { h2 { "Runs" } (PageTable::new("runs", &runs_table(comparison)).markup()) }
+        @for other in comparison.policies.iter().skip(1) {
+            section {
+                h2 { (other.policy) }
+                (sentences(of(comparison, &other.policy)))
+                p { "The figure " code { "completed" } " is over all runs, and every other one is over the runs in which both policies met the stop condition." }
+                (figures(comparison, &other.policy).markup())
+            }
+        }
+    };
+    page("Vibrissa comparison", provenance, &introduction, &sections)
+}
+
+/// The figures of a policy.
+fn of<'c>(comparison: &'c Comparison, policy: &str) -> impl Iterator<Item = &'c FigureComparison> {
+    comparison.figures.iter().filter(move |figure| figure.policy == policy)
+}
+
+/// The table of a policy with coloured verdicts.
+fn figures(comparison: &Comparison, policy: &str) -> PageTable {
+    let mut table = PageTable::new(format!("comparison-{policy}"), &figures_table(comparison, policy));
+    for (row, figure) in table.rows.iter_mut().zip(of(comparison, policy)) {
         if let Some(cell) = row.get_mut(VERDICT) {
             cell.judgement = match figure.outlook {
                 Outlook::Better => Some(Judgement::Better),
@@ -26,22 +54,5 @@ pub fn comparison_page(comparison: &Comparison) -> String {
             };
         }
     }
-    let introduction = html! {
-        p.lead { "Compared with " (first) ", over pairs of runs with the same scene, start and noise." }
-    };
-    let sections = html! {
-        @for other in comparison.policies.iter().skip(1) {
-            section {
-                h2 { (other.policy) }
-                (sentences(comparison.figures.iter().filter(|figure| figure.policy == other.policy)))
-            }
-        }
-        section {
-            h2 { "Figures" }
-            p { "The figure " code { "completed" } " is over all runs, and every other one is over the runs in which both policies met the stop condition." }
-            (figures.markup())
-        }
-        section { h2 { "Runs" } (PageTable::new("runs", &runs).markup()) }
-    };
-    page("Vibrissa comparison", &introduction, &sections)
+    table
 }

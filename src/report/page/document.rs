@@ -2,13 +2,18 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::provenance::{origin, subject};
+use crate::results::Provenance;
+
 /// The style sheet of every page, from `web/src/report`.
 const STYLE: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/web/dist/report.css"));
 /// The script of every page, from `web/src/report`.
 const SCRIPT: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/web/dist/report.js"));
 
-/// A page with its title, an introduction and its sections. It needs no other file.
-pub(super) fn page(title: &str, introduction: &Markup, sections: &Markup) -> String {
+/// A page with its title, the origin of its figures, an introduction and its sections. It needs no other file.
+pub(super) fn page(kind: &str, provenance: &Provenance, introduction: &Markup, sections: &Markup) -> String {
+    let subject = subject(provenance);
+    let title = if subject.is_empty() { kind.to_owned() } else { format!("{kind}: {subject}") };
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -16,7 +21,7 @@ pub(super) fn page(title: &str, introduction: &Markup, sections: &Markup) -> Str
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { (title) }
+                title { (title) ", " (provenance.date) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
@@ -24,8 +29,9 @@ pub(super) fn page(title: &str, introduction: &Markup, sections: &Markup) -> Str
                     h1 { (title) }
                     (introduction)
                     (sections)
+                    (origin(provenance))
                 }
-                footer { "Written by vibrissa " (env!("CARGO_PKG_VERSION")) "." }
+                footer { "Written by vibrissa " (provenance.version) ", " (provenance.date) "." }
                 script { (PreEscaped(SCRIPT)) }
             }
         }
@@ -45,7 +51,7 @@ mod tests {
 
     #[test]
     fn a_title_is_escaped() {
-        let page = page("a <b> & \"c\"", &html! {}, &html! {});
+        let page = page("a <b> & \"c\"", &Provenance::default(), &html! {}, &html! {});
         assert!(page.contains("<h1>a &lt;b&gt; &amp; &quot;c&quot;</h1>"), "{page}");
     }
 }

@@ -6,8 +6,10 @@ mod bench;
 mod changes;
 mod comparison;
 mod document;
+mod families;
 mod figure;
 mod pareto;
+mod provenance;
 mod run;
 mod runs;
 mod sweep;
@@ -15,6 +17,7 @@ mod table;
 
 pub use bench::bench_page;
 pub use comparison::comparison_page;
+pub(crate) use families::families_page;
 pub use pareto::pareto_page;
 pub use run::RunFigures;
 pub use runs::runs_page;

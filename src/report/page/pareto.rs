@@ -7,11 +7,12 @@ use super::figure::figure;
 use super::table::PageTable;
 use crate::report::picture::pareto_picture;
 use crate::report::tables::pareto_table;
+use crate::results::Provenance;
 use crate::study::pareto::Pareto;
 
 /// A page with the table and the picture of every policy. It needs no other file.
 #[must_use]
-pub fn pareto_page(measured: &[Pareto]) -> String {
+pub fn pareto_page(provenance: &Provenance, measured: &[Pareto]) -> String {
     let introduction = html! {
         p { "Each setting of the simulation has a run time relative to the default, and errors. A setting is Pareto-optimal if no faster one has a smaller error." }
     };
@@ -26,5 +27,5 @@ pub fn pareto_page(measured: &[Pareto]) -> String {
             }
         }
     };
-    page("Vibrissa run time and error", &introduction, &sections)
+    page("Vibrissa run time and error", provenance, &introduction, &sections)
 }

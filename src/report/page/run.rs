@@ -232,7 +232,7 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
                 (with_explanation(result.outcome, result))
                 " · coverage " (format!("{:.1} %", 100.0 * result.coverage))
                 " · collisions " (result.collisions.count)
-                " · " (format!("{:.1} s", result.sim_s)) " simulated"
+                " · " (format!("{:.1} s", result.sim_s)) " simulated by " (result.world)
             }
             (figure(&name, &format!("run{index}-"), &with_ring(figures), &caption, Some(&figures.positions)))
             div.histograms {

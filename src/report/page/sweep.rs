@@ -1,20 +1,24 @@
 //! A sweep as a page.
 
 use maud::{Markup, html};
+use vibrissa_runtime::units::parse_quantity;
 
 use super::document::page;
+use super::figure::figure;
 use super::run::place;
 use super::table::{Judgement, PageCell, PageTable};
 use crate::report::number::millimetres;
+use crate::report::picture::{Axis, Curve, curve_picture};
 use crate::report::table::{NONE, percent};
 use crate::report::tables::summary_table;
-use crate::results::{Ending, LargestError, Tally};
-use crate::sweep::{RunRow, SweepGroup, SweepSummary};
+use crate::results::{Ending, LargestError, Provenance, Rate, Tally};
+use crate::sweep::{RunRow, SweepCurve, SweepGroup, SweepPoint, SweepSummary};
 
 /// A page with heat maps of a sweep, the table of its groups and the runs of each group. `pictures` gives the address of the picture of
 /// a run, if there is one. `rows` has the runs of each group of the `summary`. It needs no other file than these pictures.
 #[must_use]
 pub(crate) fn sweep_page(
+    provenance: &Provenance,
     summary: &SweepSummary,
     rows: &[Vec<RunRow>],
     picture: impl Fn(&RunRow) -> Option<String>,
@@ -29,6 +33,7 @@ pub(crate) fn sweep_page(
     let table = PageTable::new(summary.sweep.clone(), &summary_table(groups)).linked(|index| Some(address(index)));
     let sections = html! {
         (largest_errors(groups, rows))
+        (curves(&summary.curves))
         (heat_maps(groups))
         section { h2 { "Groups" } (table.markup()) }
         section {
@@ -42,7 +47,7 @@ pub(crate) fn sweep_page(
             }
         }
     };
-    page(&format!("Vibrissa sweep: {}", summary.sweep), &introduction, &sections)
+    page(&format!("Vibrissa sweep: {}", summary.sweep), provenance, &introduction, &sections)
 }
 
 fn address(index: usize) -> String {
@@ -145,6 +150,82 @@ fn run_table(group: &SweepGroup, rows: &[RunRow], picture: impl Fn(&RunRow) -> O
         names: 3,
         rows: rows.iter().map(cells).collect(),
     }
+}
+
+/// For each axis its pictures: the pass rate and the mean error of each policy with their 95 % intervals.
+fn curves(curves: &[SweepCurve]) -> Markup {
+    let mut axes: Vec<&str> = curves.iter().map(|curve| curve.axis.as_str()).collect();
+    axes.dedup();
+    html! {
+        @if !axes.is_empty() {
+            section {
+                h2 { "Curves" }
+                p {
+                    "Each point is over all runs of a policy with one value of the axis: all scenes, and all values of the other axes. Bands are \
+                     95 % intervals, after Wilson for rates and by Student's t for mean errors. They treat runs as independent."
+                }
+                @for (index, axis) in axes.iter().enumerate() {
+                    h3 { (axis) }
+                    div.histograms {
+                        @for (measure, svg) in pictures_of(axis, curves).iter().enumerate() {
+                            @if let Some(svg) = svg {
+                                (figure(&format!("{axis}-{}", ["pass-rate", "error"][measure]), &format!("c{index}-{measure}-"), svg, &html! {}, None))
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The pictures of the pass rate and of the mean error over an axis.
+fn pictures_of(axis: &str, curves: &[SweepCurve]) -> [Option<String>; 2] {
+    let of_axis: Vec<&SweepCurve> = curves.iter().filter(|curve| curve.axis == axis).collect();
+    let mut values: Vec<&str> = Vec::new();
+    for point in of_axis.iter().flat_map(|curve| &curve.points) {
+        if !values.contains(&point.value.as_str()) {
+            values.push(&point.value);
+        }
+    }
+    let numbers: Option<Vec<f64>> = values.iter().map(|value| Some(parse_quantity(value).ok()?.value_si)).collect();
+    // Values that are no numbers are at equal distances.
+    let places = numbers.unwrap_or_else(|| (0..values.len()).map(|index| index as f64).collect());
+    let scale =
+        Axis { name: axis.to_owned(), values: values.iter().map(|&value| value.to_owned()).zip(places).collect() };
+    let drawn = |of: fn(&Tally) -> Option<(f64, Option<[f64; 2]>)>| -> Vec<Curve> {
+        let curve = |curve: &&SweepCurve| {
+            let point = |point: &SweepPoint| {
+                let (figure, interval) = of(&point.tally)?;
+                Some((values.iter().position(|value| *value == point.value)?, figure, interval))
+            };
+            Curve { name: curve.policy.clone(), points: curve.points.iter().filter_map(point).collect() }
+        };
+        of_axis.iter().map(curve).collect()
+    };
+    let percent = |part: f64| 100.0 * part;
+    let rates = drawn(|tally| {
+        let rate = Rate::new(tally.passed, tally.runs)?;
+        Some((rate.share, Some(rate.interval)))
+    });
+    let rates: Vec<Curve> = rates
+        .into_iter()
+        .map(|curve| {
+            let points = curve
+                .points
+                .into_iter()
+                .map(|(index, rate, band)| (index, percent(rate), band.map(|ends| ends.map(percent))));
+            Curve { points: points.collect(), ..curve }
+        })
+        .collect();
+    let errors = drawn(|tally| Some((tally.error_mean_mm?, tally.error_mean_interval_mm)));
+    let has_errors = errors.iter().any(|curve| !curve.points.is_empty());
+    [
+        curve_picture(&format!("passed runs (%) over {axis}"), &scale, Some((0.0, 100.0)), &rates),
+        has_errors
+            .then(|| curve_picture(&format!("mean error (mm) of completed runs over {axis}"), &scale, None, &errors))
+            .flatten(),
+    ]
 }
 
 /// A figure of a group that heat maps show.

@@ -1,5 +1,6 @@
 //! One run as one picture.
 
+mod curve;
 mod error_class;
 mod front;
 mod histogram;
@@ -14,6 +15,7 @@ mod state_band;
 mod strip;
 mod timeline;
 
+pub(super) use curve::{Axis, Curve, curve_picture};
 pub(super) use error_class::colour_of;
 pub(super) use histogram::histogram;
 pub use pareto::pareto_picture;

@@ -10,7 +10,7 @@ use crate::study::bench::{BenchRow, Verdict};
 pub(in crate::report) const NAMES: usize = 4;
 
 /// The headings of the table's columns.
-pub(in crate::report) const HEADINGS: [&str; 22] = [
+pub(in crate::report) const HEADINGS: [&str; 23] = [
     "scene",
     "policy",
     "outcome",
@@ -33,6 +33,7 @@ pub(in crate::report) const HEADINGS: [&str; 22] = [
     "corner path m",
     "path m",
     "sim s",
+    "simulator",
 ];
 
 /// A table of the bench with a row for every run. A cell shows whether a figure is worse than the baseline's, which is
@@ -68,7 +69,7 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
 }
 
 /// The cells of a row, with the verdict on each figure that the baseline reports.
-pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 22] {
+pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 23] {
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
     let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
@@ -104,6 +105,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 22
         plain(corners.and_then(|corners| corners.path_m.mean).map(|path| format!("{path:.2}"))),
         plain(Some(format!("{:.2}", result.path_m))),
         plain(Some(format!("{:.1}", result.sim_s))),
+        plain(Some(result.world.clone())),
     ]
 }
 

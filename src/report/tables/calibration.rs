@@ -2,6 +2,7 @@
 
 use vibrissa_runtime::calibration::Parameter;
 
+use super::super::number::millimetres;
 use super::super::table::Table;
 use crate::calibration::{HeldOut, WhiskerTouches};
 
@@ -12,8 +13,8 @@ pub(crate) fn held_out_table(rows: &[HeldOut]) -> Table {
         vec![
             row.model.to_owned(),
             row.sets.to_string(),
-            format!("{:.3}", row.rms_mm),
-            format!("{:.3}", row.max_mm),
+            millimetres(row.rms_mm),
+            millimetres(row.max_mm),
             row.range.clone(),
         ]
     });
@@ -43,7 +44,7 @@ pub(crate) fn measured_table(rows: &[WhiskerTouches]) -> Table {
             value(Parameter::Curvature, 1.0),
             value(Parameter::Taper, 100.0),
             value(Parameter::Offset, 1e6),
-            fit.map_or_else(|| "refused".to_owned(), |_| format!("{:.3}", 1e3 * row.tip_deviation)),
+            fit.map_or_else(|| "refused".to_owned(), |_| millimetres(1e3 * row.tip_deviation)),
         ]
     });
     let header = [

@@ -2,7 +2,7 @@
 
 pub(super) mod bench;
 mod calibration;
-mod comparison;
+pub(super) mod comparison;
 mod estimators;
 mod families;
 mod faults;

@@ -1,5 +1,6 @@
 //! Settings as a table.
 
+use super::super::number::millimetres;
 use super::super::table::{NONE, Table};
 use crate::study::pareto::{Front, Pareto, ParetoRow};
 
@@ -22,7 +23,7 @@ const HEADINGS: [&str; 11] = [
 /// reproducibility of the fine run.
 #[must_use]
 pub fn pareto_table(pareto: &Pareto) -> Table {
-    let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{floor:.4} mm"));
+    let floor = pareto.floor_mm.map_or_else(|| NONE.to_owned(), |floor| format!("{} mm", millimetres(floor)));
     let Pareto { policy, mismatch, .. } = pareto;
     let mismatch = mismatch.file.as_deref().unwrap_or("of the scenario");
     Table::new(3, HEADINGS, pareto.settings.iter().map(cells)).under(format!(
@@ -33,14 +34,13 @@ pub fn pareto_table(pareto: &Pareto) -> Table {
 fn cells(row: &ParetoRow) -> Vec<String> {
     let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);
     let ratio = |value: f64| if value < 10.0 { format!("{value:.2}") } else { format!("{value:.1}") };
-    let error = |error: f64| format!("{error:.4}");
     let [least, greatest] = [0, 1].map(|end| row.relative_time_range.map(|range| range[end]));
     let (front, front_of_world) = match row.outcome {
         ending if ending.met_its_stop() => (names(row.on_front), names(row.on_front_of_world)),
         ending => (ending.name().to_owned(), String::new()),
     };
     let mismatched = match row.mismatched_outcome {
-        ending if ending.met_its_stop() => shown(row.mismatched_mm, &error),
+        ending if ending.met_its_stop() => shown(row.mismatched_mm, &millimetres),
         ending => ending.name().to_owned(),
     };
     vec![
@@ -48,8 +48,8 @@ fn cells(row: &ParetoRow) -> Vec<String> {
         front,
         front_of_world,
         shown(row.relative_time, &ratio),
-        shown(row.error_mm, &error),
-        shown(row.fine_mm, &error),
+        shown(row.error_mm, &millimetres),
+        shown(row.fine_mm, &millimetres),
         mismatched,
         shown(row.coverage, &|coverage| format!("{:.1} %", 100.0 * coverage)),
         shown(row.processor_s.filter(|time| *time > 0.0), &|time| format!("{:.0}", row.sim_s / time)),

@@ -8,7 +8,7 @@ use crate::results::{Inclination, MeanStd, RunResult};
 type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
 
 /// The columns from left to right.
-const COLUMNS: [Column; 28] = [
+const COLUMNS: [Column; 29] = [
     ("scene", |result| Some(result.scenario.clone()), true),
     ("policy", |result| Some(result.policy_label()), true),
     ("outcome", |result| Some(result.outcome.to_string()), true),
@@ -36,6 +36,7 @@ const COLUMNS: [Column; 28] = [
     ("retrieval radius mm", |result| mean_with_std(result.retrieval?.radius_mm), false),
     ("retrieval distance mm", |result| mean_with_std(result.retrieval?.distance_mm), false),
     ("beyond inclination limit s", |result| beyond_inclination_limit(result.inclination.as_ref()?), false),
+    ("simulator", |result| Some(result.world.clone()), true),
     ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
 ];
 

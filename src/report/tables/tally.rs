@@ -1,17 +1,18 @@
 //! The cells of a tally, which several tables share.
 
-use super::super::number::{millimetres, rate};
+use super::super::number::{millimetres, rate, significant};
 use super::super::table::{NONE, percent};
 use crate::results::Tally;
 
 /// The headings of the cells.
-pub(super) const HEADINGS: [&str; 13] = [
+pub(super) const HEADINGS: [&str; 14] = [
     "runs",
     "passed %",
     "completed %",
     "collision-free %",
     "passed but for tips %",
     "error mm",
+    "its 95 % interval",
     "outliers",
     "in 95 % interval",
     "collided",
@@ -22,8 +23,11 @@ pub(super) const HEADINGS: [&str; 13] = [
 ];
 
 /// The cells under the headings.
-pub(super) fn cells(tally: &Tally) -> [String; 13] {
+pub(super) fn cells(tally: &Tally) -> [String; 14] {
     let share_of = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
+    let interval = tally
+        .error_mean_interval_mm
+        .map_or_else(|| NONE.to_owned(), |[low, high]| format!("{} .. {}", significant(low), significant(high)));
     let figure = |figure: Option<f64>| figure.map_or_else(|| NONE.to_owned(), millimetres);
     let rates = tally.rates.as_ref();
     [
@@ -33,6 +37,7 @@ pub(super) fn cells(tally: &Tally) -> [String; 13] {
         rate(rates.map(|rates| rates.collision_free)),
         rate(rates.map(|rates| rates.passed_but_for_tips)),
         figure(tally.error_mean_mm),
+        interval,
         share_of(tally.outliers, 2),
         share_of(tally.within_band, 1),
         tally.collided.to_string(),

@@ -1,5 +1,6 @@
 //! The comparison of simulators as a table.
 
+use super::super::number::{millimetres, significant};
 use super::super::table::{NONE, Table};
 use crate::study::worlds::WorldsRow;
 
@@ -24,8 +25,6 @@ const HEADINGS: [&str; 11] = [
 pub fn worlds_table(rows: &[WorldsRow]) -> Table {
     let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| NONE.to_owned(), text);
     let lines = rows.iter().map(|row| {
-        let millimetres = |value: f64| format!("{value:.4}");
-        let moment = |value: f64| format!("{value:.2}");
         vec![
             row.scenario.clone(),
             row.policy.clone(),
@@ -33,11 +32,11 @@ pub fn worlds_table(rows: &[WorldsRow]) -> Table {
             row.outcome.name().to_owned(),
             shown(row.tip_mm.map(|tip| tip.mean), &millimetres),
             shown(row.contour_mm, &millimetres),
-            shown(row.moment_un_m.map(|moment| moment.mean), &moment),
+            shown(row.moment_un_m.map(|moment| moment.mean), &significant),
             shown(row.moment_share, &|share| format!("{:.2} %", 100.0 * share)),
             format!("{:.1} %", 100.0 * row.left_out),
             shown(row.tip_mm.map(|tip| tip.p95), &millimetres),
-            shown(row.moment_un_m.map(|moment| moment.p95), &moment),
+            shown(row.moment_un_m.map(|moment| moment.p95), &significant),
         ]
     });
     Table::new(4, HEADINGS, lines)

@@ -118,7 +118,7 @@ mod tests {
         let mut trial = Trial::new(scene, Arc::new(program));
         trial.world = WorldKind::QuasiStatic.into();
         let result = trial.document(&trial.run().unwrap());
-        let document = serde_json::to_value(result.versioned()).unwrap();
+        let document = serde_json::to_value(result.versioned(None)).unwrap();
         for figure in &FIGURES {
             assert_eq!(figure.in_document(&document), (figure.of)(&result), "{}", figure.name);
         }

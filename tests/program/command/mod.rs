@@ -25,6 +25,7 @@ mod names;
 mod near_misses;
 pub(crate) mod program;
 mod property;
+mod provenance;
 mod recording;
 mod report;
 mod run;

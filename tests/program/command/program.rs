@@ -40,3 +40,12 @@ pub(crate) fn directory(name: &str) -> PathBuf {
     std::fs::create_dir_all(&directory).unwrap();
     directory
 }
+
+/// Lines of JSON without the origin, which only the first line of a file has.
+pub(crate) fn without_origin(lines: &str) -> String {
+    let Some((before, origin)) = lines.split_once("\"provenance\":{") else { return lines.to_owned() };
+    let origin = format!("{{{origin}");
+    let mut documents = serde_json::Deserializer::from_str(&origin).into_iter::<serde_json::Value>();
+    documents.next().unwrap().unwrap();
+    format!("{before}\"provenance\":null{}", &origin[documents.byte_offset()..])
+}

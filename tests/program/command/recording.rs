@@ -42,6 +42,7 @@ fn recorded(name: &str) -> PathBuf {
             .as_object_mut()
             .unwrap()
             .retain(|key, _| !key.contains("wall") && !key.contains("_us") && key != "realtime");
+        assert!(document["provenance"].take().is_object());
         document
     };
     assert_eq!(figures(&output), figures(&in_folder(&folder, &format!("{drive} --json"))));

@@ -84,7 +84,19 @@ mod with_simulation {
     }
 
     /// The keys of a result.
-    const KEYS: [&str; 89] = [
+    const KEYS: [&str; 101] = [
+        "provenance",
+        "provenance.command",
+        "provenance.version",
+        "provenance.commit",
+        "provenance.date",
+        "provenance.simulators",
+        "provenance.scenes",
+        "provenance.policies",
+        "provenance.seeds",
+        "provenance.jitter",
+        "provenance.mismatches",
+        "provenance.calibrations",
         "object_coverage",
         "outline_coverages",
         "out_of_reach",

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use vibrissa_robot::recording::{FileRecord, Records};
 
-use super::program::{directory, stderr, stdout, vibrissa};
+use super::program::{directory, stderr, stdout, vibrissa, without_origin};
 use super::schema::check;
 
 const SCENE: &str = "name: scene\nworld: quasistatic\nobjects: [{rounded_rectangle: {centre: [26 cm, 30 cm], width: 30 cm, height: 20 cm, \
@@ -66,7 +66,7 @@ fn a_recording_has_the_ticks_the_guards_and_the_transitions_of_the_run() {
     let ticks_file = folder.join("ticks.jsonl");
     let words = ["run", "--policy", "policies/thesis.fsm", "--set", "speed=40 mm/s", "--ticks"];
     with_paths(&words, &[&ticks_file, &folder.join("scene.yaml")]);
-    let lines = fs::read_to_string(&ticks_file).unwrap();
+    let lines = without_origin(&fs::read_to_string(&ticks_file).unwrap());
     let ticks = messages(&file, |topic| (topic == "ticks").then_some(()));
     assert_eq!(ticks.len(), lines.lines().count());
     for (tick, line) in ticks.iter().zip(lines.lines()) {

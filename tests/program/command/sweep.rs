@@ -30,12 +30,12 @@ fn sweep(arguments: &[&str]) -> Child {
     command.arg("sweep").args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
-/// The lines of a file of results, without the times that runs took.
+/// The lines of a file of results, without their origin and the times that runs took.
 fn lines(path: &Path) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap();
     let line = |line: &str| {
         let mut result: Value = serde_json::from_str(line).unwrap();
-        for time in ["start_s", "wall_s", "realtime", "tick_us"] {
+        for time in ["start_s", "wall_s", "realtime", "tick_us", "provenance"] {
             result.as_object_mut().unwrap().remove(time);
         }
         result.to_string()

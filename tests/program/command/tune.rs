@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::program::{ROOT, directory, stderr, stdout, vibrissa};
+use super::program::{ROOT, directory, stderr, stdout, vibrissa, without_origin};
 
 /// A few runs of a detuned policy in the quasi-static world.
 fn tune(out: &Path, more: &[&str]) -> std::process::Output {
@@ -21,11 +21,13 @@ fn tune(out: &Path, more: &[&str]) -> std::process::Output {
 }
 
 fn document(output: &std::process::Output) -> Value {
-    serde_json::from_str(&stdout(output)).unwrap_or_else(|_| panic!("{}", stderr(output)))
+    let mut document: Value = serde_json::from_str(&stdout(output)).unwrap_or_else(|_| panic!("{}", stderr(output)));
+    assert!(document["provenance"].take().is_object());
+    document
 }
 
 fn lines(directory: &Path) -> BTreeSet<String> {
-    fs::read_to_string(directory.join("results.jsonl")).unwrap().lines().map(str::to_owned).collect()
+    without_origin(&fs::read_to_string(directory.join("results.jsonl")).unwrap()).lines().map(str::to_owned).collect()
 }
 
 /// The values of the policy itself, the given ones and the tuned ones.

@@ -202,7 +202,11 @@ fn a_video_changes_nothing_of_the_run_and_a_recording_may_be_made_beside_it() {
         let run = document[0].as_object_mut().unwrap();
         // The times that computers need differ.
         run.retain(|key, _| {
-            !key.contains("wall") && !key.contains("_us") && !key.contains("start") && key != "realtime"
+            !key.contains("wall")
+                && !key.contains("_us")
+                && !key.contains("start")
+                && key != "realtime"
+                && key != "provenance"
         });
         document
     };

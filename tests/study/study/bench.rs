@@ -7,7 +7,9 @@ use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use vibrissa::results::{Ending, Hashes, Identity, LargestError, MeanStd, MismatchIdentity, Retrieval, RunResult};
+use vibrissa::results::{
+    Ending, Hashes, Identity, LargestError, MeanStd, MismatchIdentity, Provenance, Retrieval, RunResult,
+};
 use vibrissa::scenario;
 use vibrissa::score::Score;
 use vibrissa::study::bench::{BASELINE, BenchRow, Conditions, Verdict};
@@ -135,7 +137,7 @@ fn the_table_marks_figures_that_are_better_than_the_baselines() {
     for (row, wanted) in table
         .rows()
         .iter()
-        .zip([["better", "0.20 ± 0.00", "0.8 ± 0.5"], ["worse: error, axis", "2.00 ± 0.00", "1.3 ± 1.6"]])
+        .zip([["better", "0.200 ± 0.000", "0.8 ± 0.5"], ["worse: error, axis", "2.00 ± 0.00", "1.3 ± 1.6"]])
     {
         let found = ["against the baseline", "error mm", "baseline: error mm"].map(|heading| &row[column(heading)]);
         assert_eq!(found, wanted);
@@ -170,7 +172,12 @@ fn the_page_needs_no_other_file_and_nothing_in_it_can_break_it() {
     failed.outcome = Ending::Failed;
     failed.reason = Some(attack.to_owned());
     let rows = [BenchRow::new(failed), BenchRow::new(result("box", 1e-4))];
-    let page = bench_page(&rows, &[figures.clone(), figures], None);
+    let page = bench_page(
+        &Provenance { command: attack.to_owned(), ..Provenance::default() },
+        &rows,
+        &[figures.clone(), figures],
+        None,
+    );
     assert!(page.contains("1 of 2 runs passed") && page.contains("class=\"name worse\">failed"));
     // The only scripts are the positions of two pictures and that of the page.
     assert_eq!((page.matches("<script").count(), page.matches("</script").count()), (3, 3));

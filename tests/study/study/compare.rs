@@ -124,9 +124,20 @@ fn a_run_that_either_did_not_complete_is_in_no_pair_but_that_of_completion_and_i
     assert_eq!((completed.pairs, completed.losses, completed.wins), (4, 1, 0));
     assert!(completed.first == 1.0 && completed.mean == 0.75, "a share of all runs");
     assert!(comparison.figures.iter().all(|figure| figure.figure != "corners.time_s"), "a disk has none");
-    let [runs, figures] = comparison_tables(&comparison);
+    let [runs, figures, _] = <[_; 3]>::try_from(comparison_tables(&comparison)).unwrap();
     assert_eq!(runs.rows()[1], ["b.fsm", "4", "75.0 (30.1–95.4)", "100.0 (51.0–100.0)"]);
-    assert!(figures.fitted().starts_with("Against a.fsm"), "{}", figures.fitted());
+    assert!(figures.fitted().starts_with("b.fsm minus a.fsm"), "{}", figures.fitted());
+}
+
+#[test]
+fn a_comparison_shows_each_difference_with_its_interval_within_a_line_of_a_terminal() {
+    let runs = |ticks: [usize; 4]| (0..4).map(|seed| result(seed as u64, ticks[seed], Outcome::Completed)).collect();
+    let names = ["policies/a-policy-with-a-long-name.fsm", "policies/another-policy-with-a-long-name.fsm"];
+    let runs = [(names[0].to_owned(), runs([30, 60, 90, 120])), (names[1].to_owned(), runs([60, 90, 126, 150]))];
+    let tables = comparison_tables(&Comparison::new(&runs));
+    let shown = tables[1].fitted();
+    assert!(["difference", "95 % interval", "verdict", "+1.05"].iter().all(|text| shown.contains(text)), "{shown}");
+    assert!(shown.contains("+0.891 .. +1.21"), "{shown}");
 }
 
 /// A disk whose edge is 1 cm in front of the platform's nose.
