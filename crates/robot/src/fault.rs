@@ -14,7 +14,7 @@ pub enum FaultKind {
     SensorStale,
     /// A sensor does not answer, or has lost its mode. Its bring-up is tried again.
     SensorLost,
-    /// A reading or a pose is not a number, or a status byte is impossible.
+    /// A reading or a pose is not a number or absurd, or a status byte is impossible.
     InvalidReading,
     /// A field is at the end of the sensor's range.
     Saturated,
@@ -24,7 +24,13 @@ pub enum FaultKind {
     BusBlocked,
     /// The last pose is too old.
     PoseOld,
-    /// The actuator acknowledges no command.
+    /// A pose is farther from the last one than the platform can have moved. It is not taken.
+    PoseJump,
+    /// The localisation has begun a new sequence.
+    PoseRestarted,
+    /// A packet has come to the port of the poses from another sender. It is not read.
+    ForeignSender,
+    /// The actuator acknowledges no recent command.
     LinkLost,
     /// The MQTT broker is gone. Only telemetry needs it.
     BrokerGone,
@@ -40,7 +46,7 @@ pub enum FaultKind {
 
 impl FaultKind {
     /// All kinds.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 16] = [
         Self::SensorStale,
         Self::SensorLost,
         Self::InvalidReading,
@@ -48,6 +54,9 @@ impl FaultKind {
         Self::AngleLimit,
         Self::BusBlocked,
         Self::PoseOld,
+        Self::PoseJump,
+        Self::PoseRestarted,
+        Self::ForeignSender,
         Self::LinkLost,
         Self::BrokerGone,
         Self::ControlLate,
@@ -60,13 +69,15 @@ impl FaultKind {
     #[must_use]
     pub fn default_response(self) -> FaultResponse {
         match self {
-            Self::BrokerGone => FaultResponse::Log,
+            Self::BrokerGone | Self::ForeignSender => FaultResponse::Log,
             Self::SensorStale
             | Self::SensorLost
             | Self::InvalidReading
             | Self::Saturated
             | Self::BusBlocked
             | Self::PoseOld
+            | Self::PoseJump
+            | Self::PoseRestarted
             | Self::LinkLost
             | Self::ControlLate => FaultResponse::Pause,
             Self::AngleLimit | Self::MachineFailed | Self::Panic | Self::Terminated => FaultResponse::Stop,
@@ -84,6 +95,9 @@ impl FaultKind {
             Self::AngleLimit => "angle_limit",
             Self::BusBlocked => "bus_blocked",
             Self::PoseOld => "pose_old",
+            Self::PoseJump => "pose_jump",
+            Self::PoseRestarted => "pose_restarted",
+            Self::ForeignSender => "foreign_sender",
             Self::LinkLost => "link_lost",
             Self::BrokerGone => "broker_gone",
             Self::ControlLate => "control_late",
@@ -120,7 +134,7 @@ impl fmt::Display for Fault {
             FaultKind::InvalidReading => {
                 write!(
                     formatter,
-                    "a reading of whisker {part} or a pose is not a number, or a status byte is impossible"
+                    "a reading of whisker {part} or a pose is not a number or absurd, or a status byte is impossible"
                 )
             }
             FaultKind::Saturated => {
@@ -129,7 +143,14 @@ impl fmt::Display for Fault {
             FaultKind::AngleLimit => write!(formatter, "the base angle of whisker {part} exceeds its limit"),
             FaultKind::BusBlocked => write!(formatter, "bus {part} completes no round"),
             FaultKind::PoseOld => formatter.write_str("the last pose is too old"),
-            FaultKind::LinkLost => formatter.write_str("the actuator acknowledges no command"),
+            FaultKind::PoseJump => {
+                formatter.write_str("a pose is farther from the last one than the platform can have moved")
+            }
+            FaultKind::PoseRestarted => formatter.write_str("the localisation has begun a new sequence"),
+            FaultKind::ForeignSender => {
+                formatter.write_str("a packet for the poses has come from a sender that `from` does not name")
+            }
+            FaultKind::LinkLost => formatter.write_str("the actuator acknowledges no recent command"),
             FaultKind::BrokerGone => formatter.write_str("the MQTT broker does not answer"),
             FaultKind::ControlLate => formatter.write_str("the control loop has not completed a tick in time"),
             FaultKind::MachineFailed => formatter.write_str("the machine has failed"),

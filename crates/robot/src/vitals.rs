@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use vibrissa_runtime::geometry::Pose;
 use vibrissa_runtime::signal::MAX_WHISKERS;
 
-use crate::array::Round;
+use crate::array::{Round, is_plausible_pose};
 use crate::config::MAX_BUSES;
 use crate::fault::FaultKind;
 use crate::histogram::Histogram;
@@ -37,8 +37,14 @@ pub struct Vitals {
     pub has_panicked: AtomicBool,
     /// True if the program must end.
     pub is_terminated: AtomicBool,
-    /// True if the last pose was not a number.
+    /// True if the last pose was not a number, or none of a robot.
     pub is_invalid: AtomicBool,
+    /// Poses that the platform cannot have reached.
+    pub pose_jumps: AtomicU64,
+    /// Sequences of poses after the first one.
+    pub pose_restarts: AtomicU64,
+    /// Packets of other senders than the one of the poses.
+    pub foreign_packets: AtomicU64,
     /// True while the telemetry has no broker.
     pub is_broker_gone: AtomicBool,
     /// End of the last step of the supervisor.
@@ -128,12 +134,39 @@ impl Vitals {
 
     /// Notes the arrival of a pose. True if it is valid.
     pub fn pose_arrived(&self, pose: &Pose, now_ns: u64) -> bool {
-        let is_valid = pose.is_finite();
+        let is_valid = is_plausible_pose(pose);
         self.is_invalid.store(!is_valid, Ordering::Release);
         if is_valid {
             self.pose_ns.store(now_ns, Ordering::Release);
         }
         is_valid
+    }
+
+    /// Notes a pose that the platform cannot have reached.
+    pub fn pose_jumped(&self) {
+        self.pose_jumps.fetch_add(1, Ordering::AcqRel);
+    }
+
+    /// Notes that the localisation has begun a new sequence.
+    pub fn pose_restarted(&self) {
+        self.pose_restarts.fetch_add(1, Ordering::AcqRel);
+    }
+
+    /// Notes a packet of another sender than the one of the poses.
+    pub fn foreign_packet(&self) {
+        self.foreign_packets.fetch_add(1, Ordering::AcqRel);
+    }
+
+    /// Number of times that a fault of this kind has occurred, if the kind has occurrences and does not last.
+    #[must_use]
+    pub fn occurrences(&self, kind: FaultKind) -> Option<u64> {
+        let count = match kind {
+            FaultKind::PoseJump => &self.pose_jumps,
+            FaultKind::PoseRestarted => &self.pose_restarts,
+            FaultKind::ForeignSender => &self.foreign_packets,
+            _ => return None,
+        };
+        Some(count.load(Ordering::Acquire))
     }
 
     /// Notes a round on a bus whose boards belong to these whiskers.

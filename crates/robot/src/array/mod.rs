@@ -13,7 +13,7 @@ pub use acquisition::{Acquisition, StartFault};
 pub use assembler::{Assembler, period_ns};
 pub use bus::Bus;
 pub use magnet::Magnet;
-pub use pose_history::{PoseHistory, StampedPose};
+pub use pose_history::{PoseHistory, StampedPose, is_plausible_pose};
 pub use round::{BoardReading, ReadingState, Round};
 pub use transducer::Transducer;
 pub use zeroing::{Zeroing, ZeroingFault};

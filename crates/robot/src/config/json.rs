@@ -27,7 +27,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
     use super::*;
-    use crate::config::{ActuatorConfig, FaultResponse, MqttConfig, PoseSource, RecordConfig};
+    use crate::config::{ActuatorConfig, FaultResponse, MqttConfig, PoseSource, RecordConfig, TlsConfig};
     use crate::fault::FaultKind;
     use proptest::prelude::*;
     use vibrissa_runtime::calibration::Calibration;
@@ -61,9 +61,14 @@ mod tests {
             (timeouts.control, timeouts.link, timeouts.settle) = (next(), next(), next());
             config.responses.set(FaultKind::Saturated, FaultResponse::Log);
             config.actuator = ActuatorConfig::Udp { address: ([127, 0, 0, 1], seed).into(), acknowledged: false };
-            config.pose.source = PoseSource::Udp { listen: ([0; 4], seed).into() };
-            config.pose.latency = next();
-            config.mqtt = Some(MqttConfig { host: "broker".to_owned(), port: seed, buffer: 7 });
+            config.pose.source = PoseSource::Udp { listen: ([0; 4], seed).into(), from: "10.0.0.1:7".parse().ok() };
+            (config.pose.latency, config.pose.noise, config.pose.heading_noise) = (next(), next(), next());
+            config.mqtt = Some(MqttConfig {
+                user: Some("robot".to_owned()),
+                password_file: Some("/etc/vibrissa/password".into()),
+                tls: Some(TlsConfig { ca: Some("/etc/vibrissa/ca.pem".into()) }),
+                ..MqttConfig::open("broker".to_owned(), seed, 7)
+            });
             config.record = Some(RecordConfig { directory: "/var/lib/vibrissa".into(), limit_mb: 9 });
             config
         })

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::quantity;
+use super::sender::Sender;
 
 /// The receiver of the commands.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -44,6 +45,37 @@ pub struct PoseConfig {
     /// Age of a pose when it arrives (s).
     #[serde(default, with = "quantity::time")]
     pub latency: f64,
+    /// Largest difference between two positions of a platform at rest (m).
+    #[serde(default = "pose_noise", with = "quantity::length")]
+    pub noise: f64,
+    /// Largest difference between two of its headings (rad).
+    #[serde(default = "heading_noise", with = "quantity::angle")]
+    pub heading_noise: f64,
+}
+
+impl PoseConfig {
+    /// Poses of this source, without latency and with the default noise.
+    #[must_use]
+    pub fn new(source: PoseSource) -> Self {
+        Self { source, latency: 0.0, noise: pose_noise(), heading_noise: heading_noise() }
+    }
+
+    /// What is wrong with the noise, if something is.
+    pub(super) fn noise_fault(&self) -> Option<&'static str> {
+        if !(0.0..=1.0).contains(&self.noise) {
+            return Some("`noise` of `pose` must be from 0 to 1 m");
+        }
+        let is_possible = (0.0..=std::f64::consts::PI).contains(&self.heading_noise);
+        (!is_possible).then_some("`heading_noise` of `pose` must be from 0 to 180 deg")
+    }
+}
+
+fn pose_noise() -> f64 {
+    0.02
+}
+
+fn heading_noise() -> f64 {
+    5_f64.to_radians()
 }
 
 /// The sender of poses.
@@ -54,31 +86,12 @@ pub enum PoseSource {
     Udp {
         /// Address on which the program listens.
         listen: SocketAddr,
+        /// The sender whose packets are taken. Without it, every packet is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from: Option<Sender>,
     },
     /// Packets as messages with the topic `vibrissa/NAME/pose`.
     Mqtt {},
-}
-
-/// An MQTT broker.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MqttConfig {
-    /// Name or address of the broker.
-    pub host: String,
-    /// Port of the broker.
-    #[serde(default = "mqtt_port")]
-    pub port: u16,
-    /// Messages that wait while the broker is away, at least one. The oldest are dropped.
-    #[serde(default = "mqtt_buffer")]
-    pub buffer: usize,
-}
-
-fn mqtt_port() -> u16 {
-    1883
-}
-
-fn mqtt_buffer() -> usize {
-    20_000
 }
 
 /// The recording on the device.

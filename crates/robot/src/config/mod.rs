@@ -3,9 +3,11 @@
 mod bus;
 mod json;
 mod links;
+mod mqtt;
 mod quantity;
 mod rig;
 mod safety;
+mod sender;
 mod sensor;
 
 use serde::{Deserialize, Serialize};
@@ -15,8 +17,10 @@ use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::MAX_WHISKERS;
 
 pub use bus::{BoardConfig, BusConfig};
-pub use links::{ActuatorConfig, MqttConfig, PoseConfig, PoseSource, RecordConfig};
+pub use links::{ActuatorConfig, PoseConfig, PoseSource, RecordConfig};
+pub use mqtt::{MqttConfig, TlsConfig};
 pub use safety::{FaultResponse, Limits, Responses, Timeouts};
+pub use sender::{Sender, SenderError};
 pub use sensor::{SensorConfig, SensorConfigError};
 
 use rig::RigSection;
@@ -120,6 +124,9 @@ impl Config {
             mqtt: file.mqtt,
             record: file.record,
         };
+        if let Some(fault) = config.pose.noise_fault() {
+            return Err(ConfigError::Inconsistent(fault.to_owned()));
+        }
         config.check()?;
         Ok(config)
     }
@@ -262,7 +269,7 @@ impl Config {
             responses: Responses::default(),
             actuator: ActuatorConfig::DryRun,
             // Nobody listens there. The emulation has the poses.
-            pose: PoseConfig { source: PoseSource::Udp { listen: ([127, 0, 0, 1], 9751).into() }, latency: 0.0 },
+            pose: PoseConfig::new(PoseSource::Udp { listen: ([127, 0, 0, 1], 9751).into(), from: None }),
             mqtt: None,
             record: None,
         }

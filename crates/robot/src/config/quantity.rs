@@ -47,7 +47,7 @@ macro_rules! dimensions {
 }
 
 dimensions! {
-    length: LENGTH;
+    length: LENGTH, serialize;
     angle: ANGLE, serialize;
     time: TIME, serialize;
     mass: MASS;

@@ -51,7 +51,7 @@ pub struct Timeouts {
     /// Since the last tick of the control loop.
     #[serde(with = "quantity::time")]
     pub control: f64,
-    /// Since the last acknowledgement of a command.
+    /// Since the newest acknowledged command was sent.
     #[serde(with = "quantity::time")]
     pub link: f64,
     /// Time without a fault before the loop resumes.
@@ -59,9 +59,29 @@ pub struct Timeouts {
     pub settle: f64,
 }
 
+impl Timeouts {
+    /// The timeout of poses (ns).
+    #[must_use]
+    pub fn pose_ns(&self) -> u64 {
+        ns(self.pose)
+    }
+
+    /// The timeout of the control loop (ns).
+    #[must_use]
+    pub fn control_ns(&self) -> u64 {
+        ns(self.control)
+    }
+}
+
+/// Nanoseconds of a time (s).
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+fn ns(seconds: f64) -> u64 {
+    (seconds * 1e9) as u64
+}
+
 impl Default for Timeouts {
     fn default() -> Self {
-        Self { bus: 0.04, sensor: 0.04, pose: 0.06, control: 0.07, link: 0.08, settle: 0.2 }
+        Self { bus: 0.04, sensor: 0.04, pose: 0.06, control: 0.07, link: 0.08, settle: 0.12 }
     }
 }
 

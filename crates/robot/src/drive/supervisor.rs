@@ -25,6 +25,8 @@ pub struct Supervisor {
     bus_of: [usize; MAX_WHISKERS],
     /// Readings of each whisker that were faults by themselves, until the last step.
     counts: [u64; MAX_WHISKERS],
+    /// Occurrences of each kind of fault until the last step.
+    occurrences: [u64; FaultKind::ALL.len()],
     sequence: u64,
     command: Command,
 }
@@ -81,13 +83,15 @@ impl Supervisor {
             active: [[None; PARTS]; FaultKind::ALL.len()],
             bus_of,
             counts: [0; MAX_WHISKERS],
+            occurrences: [0; FaultKind::ALL.len()],
             sequence: 0,
             command: Command::STOP,
         }
     }
 
     /// Looks for faults and returns the packet to send. `command` is the newest of the control loop since the last
-    /// step, if there is one. `acknowledged_ns` is the last sign of life of the actuator. `log` receives every change
+    /// step, if there is one. `acknowledged_ns` is the time of the newest packet that
+    /// the actuator has acknowledged. `log` receives every change
     /// of a fault. The function allocates no memory.
     pub fn step(
         &mut self,
@@ -108,6 +112,9 @@ impl Supervisor {
         }
         for (count, vital) in self.counts.iter_mut().zip(&vitals.sensor) {
             *count = vital.count();
+        }
+        for (count, kind) in self.occurrences.iter_mut().zip(FaultKind::ALL) {
+            *count = vitals.occurrences(kind).unwrap_or(0);
         }
         let is_running = vitals.is_running.load(Ordering::Acquire);
         let is_stop = !is_running || self.is_stopped();
@@ -205,6 +212,9 @@ impl Supervisor {
             FaultKind::AngleLimit => vitals.beyond_limit.load(Ordering::Acquire) & (1 << part) != 0,
             FaultKind::BusBlocked => is_silent(vitals.round_ns.get(part), self.timeouts.bus),
             FaultKind::PoseOld => is_silent(Some(&vitals.pose_ns), self.timeouts.pose),
+            FaultKind::PoseJump | FaultKind::PoseRestarted | FaultKind::ForeignSender => {
+                vitals.occurrences(kind) > self.occurrences.get(kind.index()).copied()
+            }
             FaultKind::ControlLate => is_silent(Some(&vitals.tick_ns), self.timeouts.control),
             FaultKind::LinkLost => acknowledged_ns.is_some_and(|last| now_ns.saturating_sub(last) > self.timeouts.link),
             FaultKind::Panic | FaultKind::Terminated | FaultKind::MachineFailed | FaultKind::BrokerGone => false,

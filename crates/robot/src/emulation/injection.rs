@@ -41,8 +41,22 @@ pub enum InjectionKind {
     NoPose,
     /// Poses arrive that are not numbers.
     PoseNotANumber,
+    /// Poses arrive that are 10 m from the platform.
+    DisplacedPose,
+    /// The localisation starts again, and numbers its poses from 1.
+    LocalisationRestarts,
+    /// Another sender sends poses, with larger numbers.
+    ForeignPoses,
+    /// Headings arrive that are less by a whole turn.
+    WrappedHeadings,
     /// The actuator acknowledges nothing.
     SilentActuator,
+    /// The actuator acknowledges each packet after 0.2 s.
+    LateAcknowledgements,
+    /// The actuator acknowledges the last two packets before the fault in turn.
+    RepeatedAcknowledgements,
+    /// The actuator acknowledges packets that have not been sent.
+    FutureAcknowledgements,
     /// The MQTT broker is gone.
     NoBroker,
     /// The control thread does not run.
@@ -57,7 +71,7 @@ pub enum InjectionKind {
 
 impl InjectionKind {
     /// All kinds.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 22] = [
         Self::StaleSensor,
         Self::BrownOut,
         Self::NoAcknowledge,
@@ -67,7 +81,14 @@ impl InjectionKind {
         Self::StuckBus,
         Self::NoPose,
         Self::PoseNotANumber,
+        Self::DisplacedPose,
+        Self::LocalisationRestarts,
+        Self::ForeignPoses,
+        Self::WrappedHeadings,
         Self::SilentActuator,
+        Self::LateAcknowledgements,
+        Self::RepeatedAcknowledgements,
+        Self::FutureAcknowledgements,
         Self::NoBroker,
         Self::ControlStalls,
         Self::ControlPanics,
@@ -75,10 +96,10 @@ impl InjectionKind {
         Self::Terminate,
     ];
 
-    /// The fault that the supervisor must detect.
+    /// The fault that the supervisor must detect. `None` if the loop must go on as without it.
     #[must_use]
-    pub fn expected(self) -> FaultKind {
-        match self {
+    pub fn expected(self) -> Option<FaultKind> {
+        Some(match self {
             Self::StaleSensor => FaultKind::SensorStale,
             Self::BrownOut | Self::NoAcknowledge => FaultKind::SensorLost,
             Self::GarbledBytes | Self::PoseNotANumber => FaultKind::InvalidReading,
@@ -86,13 +107,26 @@ impl InjectionKind {
             Self::OverbentWhisker => FaultKind::AngleLimit,
             Self::StuckBus => FaultKind::BusBlocked,
             Self::NoPose => FaultKind::PoseOld,
-            Self::SilentActuator => FaultKind::LinkLost,
+            Self::DisplacedPose => FaultKind::PoseJump,
+            Self::LocalisationRestarts => FaultKind::PoseRestarted,
+            Self::ForeignPoses => FaultKind::ForeignSender,
+            Self::WrappedHeadings => return None,
+            Self::SilentActuator
+            | Self::LateAcknowledgements
+            | Self::RepeatedAcknowledgements
+            | Self::FutureAcknowledgements => FaultKind::LinkLost,
             Self::NoBroker => FaultKind::BrokerGone,
             Self::ControlStalls => FaultKind::ControlLate,
             Self::ControlPanics => FaultKind::Panic,
             Self::MachineFails => FaultKind::MachineFailed,
             Self::Terminate => FaultKind::Terminated,
-        }
+        })
+    }
+
+    /// The number of the kind, from 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
     }
 
     /// True if the fault concerns the sensor of one whisker.

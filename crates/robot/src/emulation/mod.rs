@@ -5,6 +5,7 @@
 
 mod bus_thread;
 mod injection;
+mod links;
 mod pending_injection;
 mod plant;
 mod scheduler;

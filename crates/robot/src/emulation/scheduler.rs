@@ -9,14 +9,14 @@ use std::sync::Arc;
 use rtrb::{Consumer, Producer, RingBuffer};
 use vibrissa_mlx90393::InvalidAddress;
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::geometry::Pose;
 use vibrissa_runtime::machine::Tick;
 use vibrissa_runtime::signal::Command;
 
-use inject::Switches;
+pub(super) use inject::Present;
 
 use super::bus_thread::BusThread;
-use super::injection::Injection;
+use super::injection::{Injection, InjectionKind};
+use super::links::Links;
 use super::pending_injection::PendingInjection;
 use super::plant::{Plant, PlantFault};
 use super::timeline::Timeline;
@@ -64,7 +64,8 @@ pub struct Emulation<P> {
     records: Records,
     supervision_records: RecordSender,
     injections: Vec<PendingInjection>,
-    switches: Switches,
+    present: Present,
+    links: Links,
     /// Base moment (N m) of a whisker that is bent too far.
     overbent_moment: f64,
     sample_period_ns: u64,
@@ -72,7 +73,6 @@ pub struct Emulation<P> {
     now_ns: u64,
     next_supervision_ns: u64,
     next_pose: u64,
-    acknowledged_ns: u64,
     /// Time at which the machine has begun (ns).
     begun_ns: Option<u64>,
     last_packet: Option<CommandPacket>,
@@ -152,14 +152,14 @@ impl<P: Plant> Emulation<P> {
             records,
             supervision_records,
             injections,
-            switches: Switches::default(),
+            present: Present::default(),
+            links: Links::new(config),
             overbent_moment: OVERBENT * config.limits.base_angle * stiffness,
             sample_period_ns,
             rounds_per_tick: config.rounds_per_tick(),
             now_ns: 0,
             next_supervision_ns: 0,
             next_pose: 0,
-            acknowledged_ns: 0,
             begun_ns: None,
             last_packet: None,
             events: Vec::new(),
@@ -264,7 +264,7 @@ impl<P: Plant> Emulation<P> {
                 None => consider(thread.next_slot * self.sample_period_ns, Event::Acquire(index)),
             }
         }
-        if !self.control_thread.is_gone && !self.switches.does_control_stall {
+        if !self.control_thread.is_gone && !self.present.has(InjectionKind::ControlStalls) {
             consider(self.tick_due_ns().max(self.now_ns), Event::Control);
         }
         if let Some(begun_ns) = self.begun_ns {
@@ -285,12 +285,8 @@ impl<P: Plant> Emulation<P> {
     fn pose(&mut self) {
         let time_ns = self.next_pose * self.sample_period_ns;
         self.next_pose += 1;
-        if self.switches.has_no_pose {
-            return;
-        }
-        let pose =
-            if self.switches.is_pose_invalid { Pose::UNKNOWN } else { self.timeline.borrow_mut().at(time_ns).pose };
-        if self.vitals.pose_arrived(&pose, self.now_ns) {
+        let pose = self.timeline.borrow_mut().at(time_ns).pose;
+        if let Some(pose) = self.links.pose(pose, self.now_ns, &self.present, &self.vitals) {
             let _ = self.poses.push(StampedPose { time_ns, pose });
         }
     }
@@ -306,12 +302,12 @@ impl<P: Plant> Emulation<P> {
             events.push(event);
             records.send(&LoopRecord::Event(event));
         };
-        let acknowledged_ns = Some(self.acknowledged_ns);
+        let acknowledged_ns = Some(self.links.acknowledged_ns(self.now_ns));
         let packet = self.supervisor.step(self.now_ns, &self.vitals, command, acknowledged_ns, &mut note);
         self.supervisor.sent(&packet, self.now_ns, &mut note);
         records.send(&LoopRecord::Packet(packet));
-        if !self.switches.is_actuator_silent {
-            self.acknowledged_ns = self.now_ns;
+        self.links.send(&packet, self.now_ns, &self.present);
+        if !self.present.has(InjectionKind::SilentActuator) {
             self.timeline.borrow_mut().command = packet.command;
         }
         self.last_packet = Some(packet);
@@ -327,7 +323,7 @@ impl<P: Plant> Emulation<P> {
         self.vitals.miss(Phase::Control, missed);
         self.control_thread.next_tick += missed + 1;
         let last_slot = self.now_ns.saturating_sub(tick_offset_ns(self.sample_period_ns)) / self.sample_period_ns;
-        let (now_ns, does_panic, mut ticked) = (self.now_ns, self.switches.does_control_panic, None);
+        let (now_ns, does_panic, mut ticked) = (self.now_ns, self.present.has(InjectionKind::ControlPanics), None);
         let now = || {
             assert!(!does_panic, "an injected fault");
             now_ns

@@ -21,7 +21,8 @@ pub trait Actuator: Send {
     /// [`LinkError`] if it cannot be sent. The supervisor tries again with the next one.
     fn send(&mut self, packet: &CommandPacket) -> Result<(), LinkError>;
 
-    /// Time (ns) of the last sign of life of the receiver. `None` if it gives none.
+    /// Time (ns) at which the newest packet was sent that the receiver has acknowledged. Before the first acknowledgement, it is that
+    /// of the first call. `None` if the receiver acknowledges nothing.
     fn acknowledged_ns(&mut self, now_ns: u64) -> Option<u64>;
 }
 

@@ -1,28 +1,27 @@
 //! Commands over MQTT.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
-use rtrb::{Producer, RingBuffer};
+use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::acknowledgements::Acknowledgements;
 use super::actuator::{Actuator, LinkError};
 use super::command_packet::CommandPacket;
 use super::mqtt_link::{MqttLink, PACKET_BYTES};
 use crate::config::MqttConfig;
-use crate::mqtt::Message;
+use crate::mqtt::{Message, StartError};
 use crate::telemetry::Topic;
 
-/// Commands that wait until the thread of the link takes the newest of them.
-const COMMANDS: usize = 64;
+/// Commands that wait until the thread of the link takes the newest of them, and acknowledgements that wait for the supervisor.
+const WAITING: usize = 64;
 
 /// An actuator that receives [`CommandPacket`]s from an MQTT broker.
 #[derive(Debug)]
 pub struct MqttActuator {
     commands: Producer<CommandPacket>,
     link: MqttLink,
-    /// The newest acknowledged sequence number, or 0.
-    acknowledged: Arc<AtomicU64>,
+    /// Acknowledged sequence numbers, as they arrive.
+    acknowledged: Consumer<u64>,
     acknowledgements: Option<Acknowledgements>,
 }
 
@@ -30,20 +29,20 @@ impl MqttActuator {
     /// The actuator of the robot with this name. It is `acknowledged` if it answers every packet.
     ///
     /// # Errors
-    /// The system's error if it has no more files or threads.
-    pub fn new(robot: &str, config: &MqttConfig, is_acknowledged: bool) -> std::io::Result<Self> {
-        let (producer, mut commands) = RingBuffer::<CommandPacket>::new(COMMANDS);
+    /// [`StartError`] if the connection cannot begin.
+    pub fn new(robot: &str, config: &MqttConfig, is_acknowledged: bool) -> Result<Self, StartError> {
+        let (producer, mut commands) = RingBuffer::<CommandPacket>::new(WAITING);
         let topic: Arc<str> = Topic::Command.of(robot).into();
         let next = move || {
             let newest = std::iter::from_fn(|| commands.pop().ok()).last()?;
             let payload = newest.to_bytes().to_vec();
             Some(Message { topic: Arc::clone(&topic), payload, is_retained: Topic::Command.is_retained() })
         };
-        let acknowledged = Arc::new(AtomicU64::new(0));
-        let own = Arc::clone(&acknowledged);
+        let (mut arrivals, acknowledged) = RingBuffer::new(WAITING);
         let receive = move |bytes: &[u8]| {
             if let Ok(sequence) = CommandPacket::acknowledged(bytes) {
-                own.store(sequence, Ordering::Release);
+                // A full queue means that the supervisor hangs.
+                let _ = arrivals.push(sequence);
             }
         };
         let answers = Some(Topic::Acknowledged.of(robot));
@@ -56,7 +55,7 @@ impl MqttActuator {
 impl Actuator for MqttActuator {
     fn send(&mut self, packet: &CommandPacket) -> Result<(), LinkError> {
         if let Some(acknowledgements) = &mut self.acknowledgements {
-            acknowledgements.sent(packet.sequence);
+            acknowledgements.sent(packet.sequence, packet.time_ns);
         }
         self.commands.push(*packet).map_err(|_| LinkError::Full)?;
         self.link.wake();
@@ -65,7 +64,9 @@ impl Actuator for MqttActuator {
 
     fn acknowledged_ns(&mut self, now_ns: u64) -> Option<u64> {
         let acknowledgements = self.acknowledgements.as_mut()?;
-        acknowledgements.received(self.acknowledged.load(Ordering::Acquire), now_ns);
+        while let Ok(sequence) = self.acknowledged.pop() {
+            acknowledgements.received(sequence);
+        }
         Some(acknowledgements.last_ns(now_ns))
     }
 }

@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crate::config::MqttConfig;
-use crate::mqtt::{Broker, BrokerEvent, Message, Options, RumqttBroker, Session, Traffic};
+use crate::mqtt::{Broker, BrokerEvent, Message, Options, RumqttBroker, Session, StartError, Traffic};
 
 /// The longest wait for an event.
 const LOOK: Duration = Duration::from_secs(1);
@@ -31,7 +31,7 @@ impl MqttLink {
     /// distinguishes the robot's links.
     ///
     /// # Errors
-    /// The system's error if it has no more files or threads.
+    /// [`StartError`] if the connection cannot begin.
     pub(crate) fn start(
         robot: &str,
         purpose: &str,
@@ -40,14 +40,9 @@ impl MqttLink {
         subscription: Option<String>,
         next: impl FnMut() -> Option<Message> + Send + 'static,
         receive: impl FnMut(&[u8]) + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let options = Options {
-            host: config.host.clone(),
-            port: config.port,
-            client: format!("vibrissa-{robot}-{purpose}"),
-            last_will: None,
-            traffic: Traffic::Current { bytes },
-        };
+    ) -> Result<Self, StartError> {
+        let client = format!("vibrissa-{robot}-{purpose}");
+        let options = Options::new(config, client, None, Traffic::Current { bytes })?;
         let (session, must_end) = (Session::new(RumqttBroker::new(options)?), Arc::new(AtomicBool::new(false)));
         let (waker, own) = (session.waker(), Arc::clone(&must_end));
         let body = move || exchange(session, &own, subscription.as_deref(), next, receive);

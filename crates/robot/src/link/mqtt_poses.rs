@@ -4,8 +4,10 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::Duration;
 
 use super::mqtt_link::{MqttLink, PACKET_BYTES};
-use super::pose_packet::{PosePacket, PoseReader};
+use super::pose_packet::PosePacket;
+use super::received_pose::ReceivedPose;
 use crate::config::MqttConfig;
+use crate::mqtt::StartError;
 use crate::telemetry::Topic;
 
 /// Poses that wait for the receiver.
@@ -23,12 +25,11 @@ impl MqttPoses {
     /// The poses of the robot with this name.
     ///
     /// # Errors
-    /// The system's error if it has no more files or threads.
-    pub fn new(robot: &str, config: &MqttConfig) -> std::io::Result<Self> {
+    /// [`StartError`] if the connection cannot begin.
+    pub fn new(robot: &str, config: &MqttConfig) -> Result<Self, StartError> {
         let (sender, poses) = sync_channel(POSES);
-        let mut reader = PoseReader::default();
         let receive = move |bytes: &[u8]| {
-            if let Some(packet) = reader.read(bytes) {
+            if let Ok(packet) = PosePacket::from_bytes(bytes) {
                 // A receiver that is late gets later ones.
                 let _ = sender.try_send(packet);
             }
@@ -38,8 +39,8 @@ impl MqttPoses {
         Ok(Self { poses, _link: link })
     }
 
-    /// Waits for a pose, for at most this time. Other messages, and poses out of order, are ignored.
-    pub fn receive(&mut self, wait: Duration) -> Option<PosePacket> {
-        self.poses.recv_timeout(wait).ok()
+    /// Waits for a pose, for at most this time. Other messages are ignored.
+    pub fn receive(&mut self, wait: Duration) -> Option<ReceivedPose> {
+        self.poses.recv_timeout(wait).ok().map(ReceivedPose::Packet)
     }
 }

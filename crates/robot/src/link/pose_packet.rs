@@ -10,9 +10,9 @@ use super::wire::{Content, joined};
 /// | bytes | content, little endian |
 /// |---|---|
 /// | 4 | `VBP1` |
-/// | 8 | sequence number. A packet with a lower one than the last is ignored |
+/// | 8 | sequence number, which grows. A packet with a lower one than the last is ignored, until a new sequence begins |
 /// | 8, 8 | position of the centre of mass in the world frame, x and y (m, IEEE 754) |
-/// | 8 | heading (rad, IEEE 754), not wrapped |
+/// | 8 | heading (rad, IEEE 754), wrapped or not |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PosePacket {
     /// Sequence number.
@@ -48,24 +48,6 @@ impl PosePacket {
         let content = Content::of(bytes, MAGIC, Self::LENGTH)?;
         let position = Point2::new(content.number(1)?, content.number(2)?);
         Ok(Self { sequence: content.integer(0)?, pose: Pose { position, heading: content.number(3)? } })
-    }
-}
-
-/// Reads packets in the order of their sequence numbers.
-#[derive(Debug, Default)]
-pub(super) struct PoseReader {
-    last_sequence: Option<u64>,
-}
-
-impl PoseReader {
-    /// The packet in these bytes, if it is newer than the last.
-    pub(super) fn read(&mut self, bytes: &[u8]) -> Option<PosePacket> {
-        let packet = PosePacket::from_bytes(bytes).ok()?;
-        if self.last_sequence.is_some_and(|last| packet.sequence <= last) {
-            return None;
-        }
-        self.last_sequence = Some(packet.sequence);
-        Some(packet)
     }
 }
 

@@ -6,7 +6,8 @@ use std::net::{SocketAddr, UdpSocket};
 use super::acknowledgements::Acknowledgements;
 use super::actuator::{Actuator, LinkError};
 use super::command_packet::CommandPacket;
-use super::pose_packet::{PosePacket, PoseReader};
+use super::received_pose::ReceivedPose;
+use crate::config::Sender;
 
 /// Largest number of packets that are read at once, so that a flood cannot hold the caller.
 const MOST_PACKETS: usize = 64;
@@ -35,7 +36,7 @@ impl UdpActuator {
 impl Actuator for UdpActuator {
     fn send(&mut self, packet: &CommandPacket) -> Result<(), LinkError> {
         if let Some(acknowledgements) = &mut self.acknowledgements {
-            acknowledgements.sent(packet.sequence);
+            acknowledgements.sent(packet.sequence, packet.time_ns);
         }
         match self.socket.send(&packet.to_bytes()) {
             Ok(_) => Ok(()),
@@ -51,29 +52,29 @@ impl Actuator for UdpActuator {
         for _ in 0..MOST_PACKETS {
             let Ok(length) = self.socket.recv(&mut bytes) else { break };
             if let Some(Ok(sequence)) = bytes.get(..length).map(CommandPacket::acknowledged) {
-                acknowledgements.received(sequence, now_ns);
+                acknowledgements.received(sequence);
             }
         }
         Some(acknowledgements.last_ns(now_ns))
     }
 }
 
-/// Poses that arrive as [`PosePacket`]s.
+/// Poses that arrive as [`PosePacket`](super::PosePacket)s.
 #[derive(Debug)]
 pub struct UdpPoses {
     socket: UdpSocket,
-    reader: PoseReader,
+    from: Option<Sender>,
 }
 
 impl UdpPoses {
-    /// Listens on an address. [`receive`](Self::receive) waits for at most `wait`.
+    /// Listens on an address for the packets of this sender, or of every one. [`receive`](Self::receive) waits for at most `wait`.
     ///
     /// # Errors
     /// The error of the socket.
-    pub fn new(listen: SocketAddr, wait: std::time::Duration) -> std::io::Result<Self> {
+    pub fn new(listen: SocketAddr, from: Option<Sender>, wait: std::time::Duration) -> std::io::Result<Self> {
         let socket = UdpSocket::bind(listen)?;
         socket.set_read_timeout(Some(wait))?;
-        Ok(Self { socket, reader: PoseReader::default() })
+        Ok(Self { socket, from })
     }
 
     /// The address on which it listens.
@@ -84,10 +85,10 @@ impl UdpPoses {
         self.socket.local_addr()
     }
 
-    /// Waits for a pose. Other packets, and packets out of order, are ignored.
-    pub fn receive(&mut self) -> Option<PosePacket> {
+    /// Waits for a pose. Other packets of the sender are ignored.
+    pub fn receive(&mut self) -> Option<ReceivedPose> {
         let mut bytes = [0; 64];
-        let length = self.socket.recv(&mut bytes).ok()?;
-        self.reader.read(bytes.get(..length)?)
+        let (length, sender) = self.socket.recv_from(&mut bytes).ok()?;
+        ReceivedPose::read(bytes.get(..length)?, sender, self.from)
     }
 }

@@ -9,12 +9,14 @@ use std::task::{Wake, Waker};
 use std::time::{Duration, Instant};
 
 use rumqttc::{
-    AsyncClient, Broker as Address, Event, EventLoop, Incoming, LastWill, MqttOptions, NetworkOptions, Outgoing,
-    PublishOptions, QoS,
+    AsyncClient, Broker as Address, ConnectReturnCode, ConnectionError, Event, EventLoop, Incoming, LastWill,
+    MqttOptions, NetworkOptions, Outgoing, PublishOptions, QoS, TlsConfiguration, Transport,
 };
 use tokio::runtime::Runtime;
 
+use super::access::{Access, AccessError, Authorities};
 use super::broker::{Broker, BrokerEvent, Busy, Message};
+use crate::config::MqttConfig;
 
 /// Time (s) without other packets after which the broker is asked for a sign of life. It has as long to answer.
 const KEEP_ALIVE_S: u16 = 5;
@@ -26,18 +28,50 @@ const LARGEST_MESSAGE: usize = 1 << 20;
 const EVENTS: usize = 64;
 
 /// Properties of a connection.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Options {
     /// Name or address of the broker.
     pub host: String,
     /// Its port.
     pub port: u16,
+    /// User and encryption.
+    pub access: Access,
     /// Name of the client. A broker has at most one connection with each name.
     pub client: String,
     /// The message that the broker publishes if the connection ends without [`Broker::disconnect`].
     pub last_will: Option<Message>,
     /// The messages that may wait in the connection.
     pub traffic: Traffic,
+}
+
+/// A connection that cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The system has no more files or threads.
+    #[error("the system starts no connection to the MQTT broker: {0}; end other programs")]
+    System(#[from] std::io::Error),
+    /// A file cannot be used.
+    #[error(transparent)]
+    Access(#[from] AccessError),
+    /// The system has no authorities.
+    #[error("the system gives no certificates of authorities ({0}); write the `ca` of the broker into `tls` of `mqtt`")]
+    Authorities(String),
+}
+
+impl Options {
+    /// A connection of a client with this name to a broker.
+    ///
+    /// # Errors
+    /// [`AccessError`] if a file cannot be used.
+    pub fn new(
+        config: &MqttConfig,
+        client: String,
+        last_will: Option<Message>,
+        traffic: Traffic,
+    ) -> Result<Self, AccessError> {
+        let access = Access::read(config)?;
+        Ok(Self { host: config.host.clone(), port: config.port, access, client, last_will, traffic })
+    }
 }
 
 /// The messages that may wait in a connection.
@@ -94,10 +128,21 @@ impl RumqttBroker {
     /// A broker without a connection.
     ///
     /// # Errors
-    /// The system's error if it has no more files.
-    pub fn new(options: Options) -> std::io::Result<Self> {
+    /// [`StartError`] if the system has no more files, or no authorities for certificates.
+    pub fn new(options: Options) -> Result<Self, StartError> {
         let mut mqtt = MqttOptions::new(options.client, Address::tcp(options.host, options.port));
         mqtt.set_keep_alive(KEEP_ALIVE_S).set_max_packet_size(LARGEST_MESSAGE, LARGEST_MESSAGE);
+        if let Some((name, password)) = options.access.user {
+            mqtt.set_credentials(name, password);
+        }
+        if let Some(authorities) = options.access.authorities {
+            let tls = match authorities {
+                Authorities::System => TlsConfiguration::try_default_rustls()
+                    .map_err(|error| StartError::Authorities(error.to_string()))?,
+                Authorities::Certificates(ca) => TlsConfiguration::Simple { ca, alpn: None, client_auth: None },
+            };
+            mqtt.set_transport(Transport::tls_with_config(tls));
+        }
         if let Some(will) = options.last_will {
             mqtt.set_last_will(LastWill::new(&*will.topic, will.payload, QoS::AtLeastOnce, will.is_retained));
         }
@@ -242,11 +287,24 @@ async fn run(mut event_loop: EventLoop, published: Receiver<u64>, events: tokio:
                 None => continue,
             },
             Ok(_) => continue,
-            Err(error) => BrokerEvent::Lost(error.to_string()),
+            Err(error) => BrokerEvent::Lost(reason(&error)),
         };
         let is_lost = matches!(event, BrokerEvent::Lost(_));
         if events.send(event).await.is_err() || is_lost {
             return;
         }
+    }
+}
+
+/// The reason why a connection is lost, with the remedy where the configuration has one.
+fn reason(error: &ConnectionError) -> String {
+    match error {
+        ConnectionError::ConnectionRefused(
+            ConnectReturnCode::BadUserNamePassword | ConnectReturnCode::NotAuthorized,
+        ) => "the broker refuses the user; check `user` and `password_file` of `mqtt`".to_owned(),
+        ConnectionError::Tls(error) => {
+            format!("{error}; check `tls` of `mqtt`, and that the certificate of the broker is for its `host`")
+        }
+        error => error.to_string(),
     }
 }

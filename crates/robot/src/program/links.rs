@@ -36,13 +36,20 @@ pub(super) fn actuator(config: &Config) -> Result<Box<dyn Actuator>, Error> {
 
 pub(super) fn poses(config: &Config) -> Result<PoseReceiver, Error> {
     Ok(match config.pose.source {
-        PoseSource::Udp { listen } => {
-            let mut poses = UdpPoses::new(listen, POSE_WAIT)?;
-            Box::new(move || poses.receive().map(|packet| packet.pose))
+        PoseSource::Udp { listen, from } => {
+            if from.is_none() && !listen.ip().is_loopback() {
+                return Err(format!(
+                    "every computer can send poses to {listen}; name the one of the localisation, such as \
+                     `pose: {{udp: {{listen: \"{listen}\", from: 192.168.1.20}}}}`"
+                )
+                .into());
+            }
+            let mut poses = UdpPoses::new(listen, from, POSE_WAIT)?;
+            Box::new(move || poses.receive())
         }
         PoseSource::Mqtt {} => {
             let mut poses = MqttPoses::new(&config.name, broker(config)?)?;
-            Box::new(move || poses.receive(POSE_WAIT).map(|packet| packet.pose))
+            Box::new(move || poses.receive(POSE_WAIT))
         }
     })
 }

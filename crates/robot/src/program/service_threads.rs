@@ -12,7 +12,7 @@ use super::threads::{Common, OpenBus, PoseReceiver, ThreadError, Threads};
 use crate::array::{Assembler, Bus};
 use crate::config::{Config, MqttConfig};
 use crate::drive::{ControlTask, Inputs, Outputs, QUEUE, RecordSink, Supervisor, record_queues};
-use crate::link::{Actuator, MqttActuator, MqttLink, PACKET_BYTES};
+use crate::link::{Actuator, MqttActuator, MqttLink, PACKET_BYTES, PoseGate};
 use crate::services::{InputReader, InputTask, RemoteCommands};
 use crate::telemetry::{Source, Topic};
 
@@ -46,8 +46,8 @@ impl<B: Bus + 'static> SensorIo<B> {
         handles.push(common.spawn("supervision", move |common| {
             supervise(common, supervisor, actuator, commands, supervision_records);
         })?);
-        let latency = config.pose.latency;
-        handles.push(common.spawn("pose", move |common| receive_poses(common, poses, latency, pose_sender))?);
+        let (gate, latency) = (PoseGate::new(&config), config.pose.latency);
+        handles.push(common.spawn("pose", move |common| receive_poses(common, poses, gate, latency, pose_sender))?);
         handles.push(common.spawn("telemetry", move |common| pass_on(common, records, sinks))?);
         Ok(common.running(errors, handles, config.buses.len(), false))
     }

@@ -12,7 +12,7 @@ use crate::array::{Acquisition, Bus, Round, StampedPose};
 use crate::drive::{
     ControlTask, LoopRecord, RecordSender, RecordSink, Records, SUPERVISION_NS, StepTime, Supervisor, tick_offset_ns,
 };
-use crate::link::{Actuator, CommandPacket, StampedCommand};
+use crate::link::{Actuator, CommandPacket, PoseGate, ReceivedPose, StampedCommand};
 use crate::services::{InputTask, RemoteCommands};
 use crate::vitals::Phase;
 
@@ -199,15 +199,23 @@ pub(super) fn supervise(
 pub(super) fn receive_poses(
     common: &Common,
     mut receive: PoseReceiver,
+    mut gate: PoseGate,
     latency: f64,
     mut poses: Producer<StampedPose>,
 ) {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
     let latency_ns = (latency * 1e9) as u64;
     while common.goes_on() {
-        let Some(pose) = receive() else { continue };
+        let packet = match receive() {
+            Some(ReceivedPose::Packet(packet)) => packet,
+            Some(ReceivedPose::Foreign) => {
+                common.vitals.foreign_packet();
+                continue;
+            }
+            None => continue,
+        };
         let now_ns = common.clock.now_ns();
-        if common.vitals.pose_arrived(&pose, now_ns) {
+        if let Some(pose) = gate.take(&packet, now_ns, &common.vitals) {
             let _ = poses.push(StampedPose { time_ns: now_ns.saturating_sub(latency_ns), pose });
         }
     }

@@ -13,7 +13,7 @@ use super::thread_bodies::{acquire, control, pass_on, receive_poses, supervise};
 use crate::array::{Acquisition, Assembler, Bus, Round, StartFault, ZeroingFault, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::{ControlTask, Inputs, Outputs, QUEUE, RecordSink, Supervisor, record_queues};
-use crate::link::Actuator;
+use crate::link::{Actuator, PoseGate, ReceivedPose};
 use crate::services::InputsError;
 use crate::vitals::Vitals;
 
@@ -24,7 +24,7 @@ const LEAD_NS: u64 = 20_000_000;
 pub type OpenBus<B> = Box<dyn FnOnce() -> B + Send>;
 
 /// A source of poses. It waits for at most some milliseconds.
-pub type PoseReceiver = Box<dyn FnMut() -> Option<vibrissa_runtime::geometry::Pose> + Send>;
+pub type PoseReceiver = Box<dyn FnMut() -> Option<ReceivedPose> + Send>;
 
 /// Everything that the threads need.
 pub struct Robot<B> {
@@ -77,6 +77,9 @@ pub enum ThreadError {
     /// The controller cannot use the inputs of the sensor IO.
     #[error(transparent)]
     Inputs(#[from] InputsError),
+    /// The connection to the broker cannot begin.
+    #[error(transparent)]
+    Broker(#[from] crate::mqtt::StartError),
     /// The machine has failed.
     #[error("the machine has failed: {0}")]
     Machine(String),
@@ -192,8 +195,8 @@ impl<B: Bus + 'static> Robot<B> {
         handles.push(common.spawn("supervision", move |common| {
             supervise(common, supervisor, actuator, commands, supervision_records);
         })?);
-        let (receive, latency) = (self.poses, self.config.pose.latency);
-        handles.push(common.spawn("pose", move |common| receive_poses(common, receive, latency, pose_sender))?);
+        let (receive, gate, latency) = (self.poses, PoseGate::new(&self.config), self.config.pose.latency);
+        handles.push(common.spawn("pose", move |common| receive_poses(common, receive, gate, latency, pose_sender))?);
         let sinks = self.sinks;
         handles.push(common.spawn("telemetry", move |common| pass_on(common, records, sinks))?);
         Ok(common.running(errors, handles, self.config.buses.len(), true))

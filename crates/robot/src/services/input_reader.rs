@@ -10,6 +10,7 @@ use super::inputs::{Inputs, Session};
 use crate::array::{Round, StampedPose, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::StepTime;
+use crate::link::{Order, Place, SenderClock};
 use crate::vitals::Vitals;
 
 /// Reads inputs and passes them to the control task. It repeats the decoding of the driver.
@@ -21,6 +22,8 @@ pub struct InputReader {
     sample_period_ns: u64,
     rates: [f64; 2],
     session: Option<Session>,
+    order: Order,
+    clock: SenderClock,
     rounds: Vec<Producer<Round>>,
     poses: Producer<StampedPose>,
     steps: SyncSender<StepTime>,
@@ -86,6 +89,8 @@ impl InputReader {
             sample_period_ns: period_ns(sensing.sample_rate),
             rates: [sensing.sample_rate, sensing.control_rate],
             session: None,
+            order: Order::new(config.timeouts.control_ns()),
+            clock: SenderClock::default(),
             rounds,
             poses,
             steps,
@@ -93,7 +98,7 @@ impl InputReader {
         })
     }
 
-    /// Takes a message that arrives at `now_ns` of the controller's time.
+    /// Takes a message that arrives at `now_ns` of the controller's time. One that is repeated or out of order is ignored.
     ///
     /// # Errors
     /// [`InputsError`] if the controller must end.
@@ -101,8 +106,12 @@ impl InputReader {
         let inputs: Inputs =
             serde_json::from_slice(message).map_err(|error| InputsError::Unreadable(error.to_string()))?;
         self.check(inputs.session)?;
-        // The age of an event when the message was sent counts back from the arrival. So clocks need not agree.
-        let arrival = |time_ns: u64| now_ns.saturating_sub(inputs.sent_ns.saturating_sub(time_ns));
+        if self.order.place(inputs.sent_ns, now_ns) == Place::Out {
+            return Ok(());
+        }
+        // The age of an event when the message was sent counts back from the sending, on this clock. So clocks need not agree.
+        let sent_ns = now_ns.saturating_sub(self.clock.age_ns(inputs.sent_ns, now_ns));
+        let arrival = |time_ns: u64| sent_ns.saturating_sub(inputs.sent_ns.saturating_sub(time_ns));
         for message in &inputs.rounds {
             let mut round = message.decoded(&self.settings).map_err(|_| InputsError::Array)?;
             let (Some(queue), Some(whiskers)) = (self.rounds.get_mut(message.bus()), self.whiskers.get(message.bus()))
@@ -119,7 +128,7 @@ impl InputReader {
         }
         for message in &inputs.poses {
             let stamped = StampedPose::from(message);
-            if self.vitals.pose_arrived(&stamped.pose, now_ns) {
+            if self.vitals.pose_arrived(&stamped.pose, sent_ns) {
                 let _ = self.poses.push(stamped);
             }
         }

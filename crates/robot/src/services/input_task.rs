@@ -10,7 +10,7 @@ use crate::array::{Round, StampedPose};
 use crate::config::{Config, MqttConfig};
 use crate::drive::{LoopRecord, RecordSender, StepInput, StepTime};
 use crate::link::MqttLink;
-use crate::mqtt::Message;
+use crate::mqtt::{Message, StartError};
 use crate::telemetry::{Source, Topic};
 use crate::vitals::Vitals;
 
@@ -37,7 +37,7 @@ impl InputTask {
     /// The task of a robot. It takes these rounds of each bus, and these poses.
     ///
     /// # Errors
-    /// The system's error if it has no more files or threads.
+    /// [`StartError`] if the connection cannot begin.
     pub fn new(
         config: &Config,
         broker: &MqttConfig,
@@ -45,7 +45,7 @@ impl InputTask {
         poses: Consumer<StampedPose>,
         records: RecordSender,
         vitals: Arc<Vitals>,
-    ) -> std::io::Result<Self> {
+    ) -> Result<Self, StartError> {
         let name = Source::SensorIo.name(&config.name);
         let (messages, mut waiting) = RingBuffer::new(WAITING);
         let link = MqttLink::start(&name, "inputs", broker, BYTES, None, move || waiting.pop().ok(), |_| {})?;

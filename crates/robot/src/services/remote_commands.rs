@@ -7,8 +7,8 @@ use rtrb::{Consumer, RingBuffer};
 use vibrissa_runtime::signal::Command;
 
 use crate::config::{Config, MqttConfig};
-use crate::link::{CommandPacket, MqttLink, PACKET_BYTES, StampedCommand};
-use crate::mqtt::Message;
+use crate::link::{CommandGate, CommandPacket, CommandVerdict, MqttLink, PACKET_BYTES, StampedCommand};
+use crate::mqtt::{Message, StartError};
 use crate::telemetry::{Source, Topic};
 use crate::vitals::Vitals;
 
@@ -19,7 +19,8 @@ const PACKETS: usize = 64;
 #[derive(Debug)]
 pub struct RemoteCommands {
     packets: Consumer<CommandPacket>,
-    /// The newest packet.
+    gate: CommandGate,
+    /// The newest packet that was taken.
     newest: Option<CommandPacket>,
     acknowledged: Arc<AtomicU64>,
     link: MqttLink,
@@ -30,8 +31,8 @@ impl RemoteCommands {
     /// The commands for a robot.
     ///
     /// # Errors
-    /// The system's error if it has no more files or threads.
-    pub fn new(config: &Config, broker: &MqttConfig, vitals: Arc<Vitals>) -> std::io::Result<Self> {
+    /// [`StartError`] if the connection cannot begin.
+    pub fn new(config: &Config, broker: &MqttConfig, vitals: Arc<Vitals>) -> Result<Self, StartError> {
         let name = Source::SensorIo.name(&config.name);
         let (mut producer, packets) = RingBuffer::new(PACKETS);
         let acknowledged = Arc::new(AtomicU64::new(0));
@@ -53,16 +54,29 @@ impl RemoteCommands {
         };
         let subscription = Some(Topic::Command.of(&name));
         let link = MqttLink::start(&name, "forward", broker, PACKET_BYTES, subscription, next, receive)?;
-        Ok(Self { packets, newest: None, acknowledged, link, vitals })
+        let gate = CommandGate::new(config.timeouts.control_ns());
+        Ok(Self { packets, gate, newest: None, acknowledged, link, vitals })
     }
 
-    /// The newest command since the last call. It is a sign of life of the controller.
+    /// The newest command since the last call. When it was sent, the controller has lived. Commands that are old or out of order are
+    /// not taken.
     pub fn take(&mut self, now_ns: u64) -> Option<StampedCommand> {
-        let newest = std::iter::from_fn(|| self.packets.pop().ok()).last()?;
-        self.newest = Some(newest);
-        self.vitals.tick_ns.store(now_ns, Ordering::Release);
+        let mut taken = None;
+        while let Ok(packet) = self.packets.pop() {
+            match self.gate.take(&packet, now_ns) {
+                CommandVerdict::Taken { sent_ns } => taken = Some((packet, sent_ns)),
+                CommandVerdict::Refused => {}
+                CommandVerdict::Restarted => {
+                    // The supervisor sees the silence before it, and stops the platform.
+                    while self.packets.pop().is_ok() {}
+                }
+            }
+        }
+        let (packet, sent_ns) = taken?;
+        self.newest = Some(packet);
+        self.vitals.tick_ns.fetch_max(sent_ns, Ordering::AcqRel);
         self.vitals.is_running.store(true, Ordering::Release);
-        Some(StampedCommand { time_ns: now_ns, command: newest.command })
+        Some(StampedCommand { time_ns: now_ns, command: packet.command })
     }
 
     /// The packet as it leaves: a stop of the controller remains a stop.

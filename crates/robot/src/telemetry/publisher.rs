@@ -10,7 +10,7 @@ use super::outbox::{Outbox, WINDOW};
 use super::payload::{Dropped, OFFLINE, ONLINE};
 use super::topic::Topic;
 use crate::config::MqttConfig;
-use crate::mqtt::{Broker, BrokerEvent, Message, Options, RumqttBroker, Session, Traffic};
+use crate::mqtt::{Broker, BrokerEvent, Message, Options, RumqttBroker, Session, StartError, Traffic};
 
 /// The longest wait for an event.
 const LOOK: Duration = Duration::from_secs(1);
@@ -47,17 +47,13 @@ impl Publisher {
     /// and the news that it is back.
     ///
     /// # Errors
-    /// The system's error if it has no more files or threads.
-    pub fn start(robot: &str, config: &MqttConfig, log: impl FnMut(&str) + Send + 'static) -> std::io::Result<Self> {
-        let options = Options {
-            host: config.host.clone(),
-            port: config.port,
-            client: format!("vibrissa-{robot}-telemetry"),
-            last_will: Some(status(robot, OFFLINE)),
-            // Some more than the window, for the status.
-            traffic: Traffic::Complete(WINDOW + 8),
-        };
-        Self::start_with(RumqttBroker::new(options)?, robot, config.buffer, log)
+    /// [`StartError`] if the connection cannot begin.
+    pub fn start(robot: &str, config: &MqttConfig, log: impl FnMut(&str) + Send + 'static) -> Result<Self, StartError> {
+        let client = format!("vibrissa-{robot}-telemetry");
+        // Some more than the window, for the status.
+        let traffic = Traffic::Complete(WINDOW + 8);
+        let options = Options::new(config, client, Some(status(robot, OFFLINE)), traffic)?;
+        Ok(Self::start_with(RumqttBroker::new(options)?, robot, config.buffer, log)?)
     }
 
     /// A publisher with another client.

@@ -228,6 +228,9 @@ impl Translator {
             | FaultKind::AngleLimit => self.rig_whiskers.get(part).cloned(),
             FaultKind::BusBlocked => self.buses.get(part).cloned(),
             FaultKind::PoseOld
+            | FaultKind::PoseJump
+            | FaultKind::PoseRestarted
+            | FaultKind::ForeignSender
             | FaultKind::LinkLost
             | FaultKind::BrokerGone
             | FaultKind::ControlLate

@@ -6,6 +6,7 @@ mod artifacts;
 mod campaign;
 mod damage;
 mod kept;
+mod links;
 mod panic;
 mod recorder;
 mod recording;

@@ -36,7 +36,7 @@ impl EmulatedRobot {
     /// A robot whose telemetry has this broker, and a buffer for so many messages.
     pub(crate) fn with_telemetry(settings: &Settings, broker: SocketAddr, buffer: usize) -> Self {
         let (config, program) = parts();
-        let mqtt = MqttConfig { host: broker.ip().to_string(), port: broker.port(), buffer };
+        let mqtt = MqttConfig::open(broker.ip().to_string(), broker.port(), buffer);
         let publisher = Publisher::start(&config.name, &mqtt, |_| {}).unwrap();
         let telemetry = Some(TelemetrySink::new(&config, Source::Loop(&program), publisher, 0));
         Self { telemetry, ..Self::new(settings) }

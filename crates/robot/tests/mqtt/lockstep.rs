@@ -30,7 +30,7 @@ struct SensorIo {
 
 impl SensorIo {
     fn new(config: &Config, broker: &Mosquitto) -> Self {
-        let mqtt = MqttConfig { host: "127.0.0.1".to_owned(), port: broker.address.port(), buffer: 1 };
+        let mqtt = MqttConfig::open("127.0.0.1".to_owned(), broker.address.port(), 1);
         let (rounds, receivers) = config.buses.iter().map(|_| RingBuffer::new(QUEUE)).unzip();
         let (poses, pose_receiver) = RingBuffer::new(QUEUE);
         let ([records, _], _) = record_queues();

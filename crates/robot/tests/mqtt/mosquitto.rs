@@ -25,8 +25,13 @@ impl Mosquitto {
         )
     }
 
-    /// Starts a broker with further lines of its configuration.
+    /// Starts a broker for everybody, with further lines of its configuration.
     pub(crate) fn with(lines: &str) -> Option<Self> {
+        Self::closed(&format!("allow_anonymous true\n{lines}"))
+    }
+
+    /// Starts a broker only for those whom these lines of its configuration name.
+    pub(crate) fn closed(lines: &str) -> Option<Self> {
         let program = find("mosquitto", "mosquitto")?;
         let directory = tempfile::tempdir().unwrap();
         let mut broker = Self { program, directory, lines: lines.to_owned(), child: None, address: free_port() };
@@ -58,7 +63,7 @@ impl Mosquitto {
     /// True if the broker accepts connections, false if it has ended.
     fn run(&mut self) -> bool {
         let config = self.directory.path().join("mosquitto.conf");
-        let text = format!("listener {} 127.0.0.1\nallow_anonymous true\n{}", self.address.port(), self.lines);
+        let text = format!("listener {} 127.0.0.1\n{}", self.address.port(), self.lines);
         std::fs::write(&config, text).unwrap();
         let mut command = Command::new(&self.program);
         let mut child = command.arg("-c").arg(config).stdin(Stdio::null()).stdout(Stdio::null()).spawn().unwrap();

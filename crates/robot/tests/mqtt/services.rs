@@ -2,10 +2,15 @@
 
 use std::net::SocketAddr;
 use std::process::Stdio;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use rumqttc::PublishOptions;
 use vibrissa_robot::link::CommandPacket;
 use vibrissa_robot::telemetry::{OFFLINE, ONLINE, Topic};
+use vibrissa_runtime::geometry::Vector2;
+use vibrissa_runtime::signal::Command;
 
 use crate::gate::Gate;
 use crate::listener::Listener;
@@ -65,6 +70,67 @@ fn a_controller_that_is_killed_stops_the_platform_and_the_next_one_moves_it_agai
         wait_until(&name, || listener.all().iter().any(|arrival| arrival.topic == name));
     }
     assert!(!listener.all().iter().any(|arrival| arrival.topic == Topic::Samples.of("test")));
+}
+
+/// A controller that sends a packet every 10 ms, until it is dropped.
+struct Sending(Arc<AtomicBool>);
+
+impl Sending {
+    /// It has the number and the time (ms) of each packet, by its index and the time (ms) since the start.
+    fn start(broker: SocketAddr, packet: impl Fn(u64, u64) -> (u64, u64) + Send + 'static) -> Self {
+        let (has_ended, client) = (Arc::<AtomicBool>::default(), Listener::new(broker, "none", |_, _| {}));
+        let (own, begin) = (Arc::clone(&has_ended), Instant::now());
+        std::thread::spawn(move || {
+            for index in (0..).take_while(|_| !own.load(Ordering::Relaxed)) {
+                let (sequence, time_ms) = packet(index, u64::try_from(begin.elapsed().as_millis()).unwrap());
+                let command = Command { velocity_world: Vector2::new(0.05, 0.0), yaw_rate: 0.0 };
+                let packet = CommandPacket { sequence, time_ns: time_ms * 1_000_000, command, is_stop: false };
+                client.publish("vibrissa/test/sensor_io/command", &packet.to_bytes(), PublishOptions::at_most_once());
+                std::thread::sleep(Duration::from_millis(10));
+            }
+        });
+        Self(has_ended)
+    }
+}
+
+impl Drop for Sending {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn commands_that_are_repeated_or_grow_old_stop_the_platform_and_young_ones_in_order_move_it() {
+    let Some(broker) = Mosquitto::start() else { return };
+    let server = Server::start();
+    let robot = robot("commands", broker.address);
+    let _sensor_io = sensor_io(&robot, &server);
+    robot.wait_for(|packet| packet.is_stop);
+    let stands_still = || {
+        robot.wait_for(|packet| packet.is_stop);
+        let end = Instant::now() + Duration::from_millis(500);
+        robot.wait_for(|packet| {
+            assert!(packet.is_stop);
+            Instant::now() > end
+        });
+    };
+    let first = Sending::start(broker.address, |index, now_ms| (1000 + index, now_ms));
+    robot.wait_for(moves);
+    drop(first);
+    stands_still();
+    let repeated: [fn(u64) -> u64; 3] = [|_| 1, |index| 1 + index % 2, |index| 900_u64.saturating_sub(index)];
+    for number in repeated {
+        let _sending = Sending::start(broker.address, move |index, now_ms| (number(index), now_ms));
+        stands_still();
+    }
+    // A controller that starts again.
+    let second = Sending::start(broker.address, |index, now_ms| (1 + index, now_ms));
+    robot.wait_for(moves);
+    drop(second);
+    // Packets that are older each time.
+    let _late = Sending::start(broker.address, |index, now_ms| (1 + index, now_ms * 9 / 10));
+    robot.wait_for(moves);
+    stands_still();
 }
 
 #[test]

@@ -10,12 +10,15 @@ mod server;
 mod store_commands;
 mod stored_machine;
 
+use std::net::UdpSocket;
 use std::time::{Duration, Instant};
 
 use robot::{Outside, program};
 use server::Server;
 use vibrissa_mlx90393_emulator::{BusFault, SensorFault};
 use vibrissa_robot::fault::{FaultChange, FaultEvent, FaultKind};
+use vibrissa_robot::link::PosePacket;
+use vibrissa_runtime::geometry::{Point2, Pose};
 
 #[test]
 fn the_sensors_command_sees_every_board_at_the_rate_of_the_loop() {
@@ -70,6 +73,47 @@ fn the_loop_moves_the_robot_stops_it_for_a_fault_resumes_stops_at_the_end_and_ca
     for kind in [FaultKind::SensorLost, FaultKind::BusBlocked, FaultKind::PoseOld, FaultKind::Terminated] {
         assert!(has_stopped(kind), "{kind:?} in {:?}", replayed.events);
     }
+}
+
+#[test]
+fn a_localisation_that_starts_again_is_followed_and_a_stranger_is_not() {
+    let server = Server::start();
+    let outside = Outside::new("poses");
+    let mut child = outside.files.drive(&server);
+    let moves = |packet: &vibrissa_robot::link::CommandPacket| packet.command.velocity_world.norm() > 0.0;
+    outside.wait_for(moves);
+    let stranger = UdpSocket::bind("127.0.0.2:0").unwrap();
+    let pose = Pose { position: Point2::new(0.001, 0.0), heading: 0.0 };
+    for sequence in [u64::MAX, 1 << 20, (1 << 20) + 1] {
+        stranger.send_to(&PosePacket { sequence, pose }.to_bytes(), outside.poses).unwrap();
+    }
+    outside.restart_poses();
+    let before = Instant::now();
+    outside.wait_for(|packet| packet.is_stop);
+    outside.wait_for(moves);
+    assert!(before.elapsed() < Duration::from_secs(3), "{:?}", before.elapsed());
+    child.terminate();
+    outside.wait_for(|packet| packet.is_stop);
+    assert!(child.wait().success());
+    let events = outside.replay().events;
+    for kind in [FaultKind::ForeignSender, FaultKind::PoseRestarted] {
+        let is_it = |event: &FaultEvent| event.fault.kind == kind && event.change == FaultChange::Detected;
+        assert!(events.iter().any(is_it), "{kind:?} in {events:?}");
+    }
+}
+
+#[test]
+fn poses_of_every_computer_are_refused_at_the_start() {
+    let (server, outside) = (Server::start(), Outside::new("any"));
+    let text = std::fs::read_to_string(&outside.files.config).unwrap();
+    let local = format!("listen: '{}', from: 127.0.0.1", outside.poses);
+    let text = text.replace(&local, &format!("listen: '0.0.0.0:{}'", outside.poses.port()));
+    std::fs::write(&outside.files.config, text).unwrap();
+    let arguments = ["drive", "--config", &outside.files.config, "--skip-admission", &outside.files.machine];
+    let output = program(&server, &arguments).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("name the one of the localisation"), "{message}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use vibrissa_robot::array::Bus;
 use vibrissa_robot::config::{Config, Timeouts};
 use vibrissa_robot::drive::{LoopRecord, RecordSink};
 use vibrissa_robot::fault::{FaultChange, FaultEvent, FaultKind};
-use vibrissa_robot::link::{Actuator, CommandPacket, LinkError};
+use vibrissa_robot::link::{Actuator, CommandPacket, LinkError, PosePacket, ReceivedPose};
 use vibrissa_robot::program::{PoseReceiver, Robot, SystemClock};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::Pose;
@@ -140,10 +140,12 @@ fn panics(on_bus: &Trigger, on_pose: &Trigger, trigger: &Trigger) {
     };
     let buses = vec![bus(on_bus.clone()), bus(Trigger::default())];
     let on_pose = on_pose.clone();
+    let mut sequences = 1..;
     let poses: PoseReceiver = Box::new(move || {
         std::thread::sleep(Duration::from_millis(5));
         on_pose.call();
-        Some(Pose::default())
+        let packet = PosePacket { sequence: sequences.next()?, pose: Pose::default() };
+        Some(ReceivedPose::Packet(packet))
     });
     let (packet_sender, packets) = channel();
     let (event_sender, events) = channel();

@@ -5,7 +5,7 @@ use std::net::{SocketAddr, UdpSocket};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use vibrissa_robot::link::{CommandPacket, PosePacket};
@@ -74,7 +74,11 @@ impl Files {
 pub(crate) struct Outside {
     pub(crate) files: Files,
     actuator: UdpSocket,
+    /// Address to which the poses go.
+    pub(crate) poses: SocketAddr,
     are_poses_paused: Arc<AtomicBool>,
+    /// Sequence number of the last pose.
+    pose_number: Arc<AtomicU64>,
     has_ended: Arc<AtomicBool>,
 }
 
@@ -91,17 +95,19 @@ impl Outside {
         let poses = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
         let links = format!(
             "actuator: {{udp: {{address: '{}'}}}}\n\
-             pose: {{udp: {{listen: '{poses}'}}}}\n\
+             pose: {{udp: {{listen: '{poses}', from: 127.0.0.1}}}}\n\
              {links}",
             actuator.local_addr().unwrap()
         );
         let outside = Self {
             files: Files::new(name, &links),
             actuator,
+            poses,
             are_poses_paused: Arc::default(),
+            pose_number: Arc::default(),
             has_ended: Arc::default(),
         };
-        outside.send_poses(poses);
+        outside.send_poses();
         outside
     }
 
@@ -114,6 +120,11 @@ impl Outside {
 
     pub(crate) fn pause_poses(&self, is_paused: bool) {
         self.are_poses_paused.store(is_paused, Ordering::Relaxed);
+    }
+
+    /// The localisation starts again, and numbers its poses from 1.
+    pub(crate) fn restart_poses(&self) {
+        self.pose_number.store(0, Ordering::Relaxed);
     }
 
     /// Acknowledges commands until one of them is as `wanted`.
@@ -132,15 +143,14 @@ impl Outside {
         }
     }
 
-    fn send_poses(&self, to: SocketAddr) {
+    fn send_poses(&self) {
         let (is_paused, has_ended) = (Arc::clone(&self.are_poses_paused), Arc::clone(&self.has_ended));
+        let (to, number) = (self.poses, Arc::clone(&self.pose_number));
         std::thread::spawn(move || {
             let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
             let pose = Pose { position: Point2::origin(), heading: 0.0 };
-            for sequence in 1.. {
-                if has_ended.load(Ordering::Relaxed) {
-                    break;
-                }
+            while !has_ended.load(Ordering::Relaxed) {
+                let sequence = number.fetch_add(1, Ordering::Relaxed) + 1;
                 if !is_paused.load(Ordering::Relaxed) {
                     let _ = socket.send_to(&PosePacket { sequence, pose }.to_bytes(), to);
                 }

@@ -8,15 +8,21 @@ use super::Emulation;
 use crate::emulation::injection::{Injection, InjectionKind};
 use crate::emulation::plant::Plant;
 
-/// Faults outside the buses that are present now.
+/// Number of faults of each kind that are present now.
 #[derive(Debug, Default)]
-#[expect(clippy::struct_excessive_bools, reason = "independent switches")]
-pub(super) struct Switches {
-    pub(super) has_no_pose: bool,
-    pub(super) is_pose_invalid: bool,
-    pub(super) is_actuator_silent: bool,
-    pub(super) does_control_stall: bool,
-    pub(super) does_control_panic: bool,
+pub(in super::super) struct Present([usize; InjectionKind::ALL.len()]);
+
+impl Present {
+    /// True if a fault of this kind is present.
+    pub(in super::super) fn has(&self, kind: InjectionKind) -> bool {
+        self.0.get(kind.index()).is_some_and(|count| *count > 0)
+    }
+
+    fn switch(&mut self, kind: InjectionKind, begins: bool) {
+        if let Some(count) = self.0.get_mut(kind.index()) {
+            *count = if begins { *count + 1 } else { count.saturating_sub(1) };
+        }
+    }
 }
 
 impl<P: Plant> Emulation<P> {
@@ -34,6 +40,10 @@ impl<P: Plant> Emulation<P> {
                 pending.is_injected = true;
             } else {
                 pending.is_cleared = true;
+            }
+            // A thread that has panicked is gone.
+            if begins || injection.kind != InjectionKind::ControlPanics {
+                self.present.switch(injection.kind, begins);
             }
             self.switch(injection, begins);
         }
@@ -65,12 +75,23 @@ impl<P: Plant> Emulation<P> {
                     thread.switch_bus_fault(begins, BusFault::STUCK);
                 }
             }
-            InjectionKind::NoPose => self.switches.has_no_pose = begins,
-            InjectionKind::PoseNotANumber => self.switches.is_pose_invalid = begins,
-            InjectionKind::SilentActuator => self.switches.is_actuator_silent = begins,
-            InjectionKind::NoBroker => self.vitals.is_broker_gone.store(begins, Ordering::Release),
-            InjectionKind::ControlStalls => self.switches.does_control_stall = begins,
-            InjectionKind::ControlPanics => self.switches.does_control_panic = true,
+            InjectionKind::NoBroker => {
+                self.vitals.is_broker_gone.store(self.present.has(InjectionKind::NoBroker), Ordering::Release);
+            }
+            InjectionKind::LocalisationRestarts if begins => self.links.restart_localisation(),
+            // The links and the scheduler look whether these are present.
+            InjectionKind::LocalisationRestarts
+            | InjectionKind::NoPose
+            | InjectionKind::PoseNotANumber
+            | InjectionKind::DisplacedPose
+            | InjectionKind::ForeignPoses
+            | InjectionKind::WrappedHeadings
+            | InjectionKind::SilentActuator
+            | InjectionKind::LateAcknowledgements
+            | InjectionKind::RepeatedAcknowledgements
+            | InjectionKind::FutureAcknowledgements
+            | InjectionKind::ControlStalls
+            | InjectionKind::ControlPanics => {}
             InjectionKind::MachineFails => self.vitals.has_machine_failed.store(true, Ordering::Release),
             InjectionKind::Terminate => self.vitals.is_terminated.store(true, Ordering::Release),
         }
