@@ -6,6 +6,7 @@
 
 mod arc;
 mod arrangement;
+mod b_spline;
 mod bezier;
 mod bounding_box;
 mod contour;
@@ -28,6 +29,7 @@ mod texture;
 mod union;
 
 pub use arc::Arc;
+pub use b_spline::BSpline;
 pub use bezier::Bezier;
 pub use bounding_box::BoundingBox;
 pub(crate) use contour::MIN_PIECE_LENGTH;

@@ -47,6 +47,18 @@ pub enum OutlineFault {
     /// The file contains no outline.
     #[error("the file has no closed outline")]
     NoOutline,
+    /// All outlines of the file are invisible.
+    #[error("the file has no visible outline; parts that are hidden, or have neither a fill nor a stroke: {unseen}")]
+    Invisible {
+        /// The number of invisible parts.
+        unseen: usize,
+    },
+    /// The file states a unit of length that does not exist.
+    #[error("the file states `{stated}` as its unit of length, which is not known")]
+    UnknownUnit {
+        /// The unit.
+        stated: String,
+    },
     /// The requested element or layer does not exist.
     #[error("the file has no element or layer `{element}`")]
     NoElement {
@@ -147,7 +159,8 @@ impl OutlineFault {
             }
             Self::NotUtf8(_) => NotUtf8::ADVICE,
             Self::TooLarge { .. } => "leave out details that are finer than whiskers resolve, or split the drawing into several files",
-            Self::NoUnit => "add `unit`, such as `unit: 1 mm`",
+            Self::Invisible { .. } => "make visible what is an outline, or choose it by `element`",
+            Self::NoUnit | Self::UnknownUnit { .. } => "add `unit`, such as `unit: 1 mm`",
             Self::NoOutline => "draw closed lines, arcs, curves or shapes; texts and pictures are not read",
             Self::NoElement { meant: Some(meant), .. } => return format!("did you mean `{meant}`?"),
             Self::NoElement { .. } => "leave `element` out to read the whole file",
@@ -163,7 +176,7 @@ impl OutlineFault {
             Self::Curve => "round the cusp off, or split the curve there",
             Self::NotWatertight { .. } => "close the hole; most modelling programs can repair a mesh",
             Self::Missed { .. } => "choose a `height` between them, or another `unit`",
-            Self::Hole { .. } => "whiskers cannot reach a hole: remove it, or choose one of the two outlines by `element`",
+            Self::Hole { .. } => "whiskers cannot reach a hole: write `holes: ignore`, remove it, or choose one of the two outlines by `element`",
         }
         .to_owned()
     }

@@ -22,6 +22,8 @@ mod stl;
 #[cfg(feature = "outlines")]
 mod svg;
 #[cfg(feature = "outlines")]
+mod text;
+#[cfg(feature = "outlines")]
 mod transform;
 
 pub use error::{OutlineError, OutlineFault};
@@ -52,6 +54,31 @@ pub struct ReadOptions<'r> {
     pub element: Option<&'r str>,
     /// The height (m) of the cutting plane above the z = 0 of an STL.
     pub height: f64,
+    /// What is done with an outline within another.
+    pub holes: Holes,
+}
+
+/// What is done with an outline within another. Whiskers cannot reach it.
+#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
+pub enum Holes {
+    /// It is an error, because it could also be an object.
+    #[default]
+    Refuse,
+    /// It is left out.
+    Ignore,
+}
+
+impl Holes {
+    /// All values.
+    pub(crate) const ALL: [Self; 2] = [Self::Refuse, Self::Ignore];
+
+    /// The name in scenarios.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Refuse => "refuse",
+            Self::Ignore => "ignore",
+        }
+    }
 }
 
 /// Reads the outlines of a file: closed contours, none within another. They may touch. Their frame is the file's, in
@@ -67,13 +94,16 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions<'_>) -> Result<V
     if bytes.is_empty() {
         return Err(OutlineFault::Empty.into());
     }
-    let outlines = match format {
+    let mut outlines = match format {
         Format::Svg => svg::read(bytes, options),
         Format::Dxf => dxf::read(bytes, options),
         Format::Csv => csv::read(bytes, options),
         Format::Stl => stl::read(bytes, options),
     }?;
-    outline_list::check_nesting(&outlines)?;
+    match options.holes {
+        Holes::Refuse => outline_list::check_nesting(&outlines)?,
+        Holes::Ignore => outline_list::leave_out_nested(&mut outlines),
+    }
     Ok(outlines.into_iter().map(|outline| outline.contour).collect())
 }
 

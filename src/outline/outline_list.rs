@@ -3,6 +3,7 @@
 use crate::geometry::{Contour, ContourError, Piece};
 
 use super::chain::close;
+use super::transform::is_near;
 use super::{MAX_OUTLINES, MAX_PIECES, OutlineError, OutlineFault};
 
 /// An outline with the line of its beginning in the file, if that is known.
@@ -19,7 +20,8 @@ pub(super) struct OutlineList {
 }
 
 impl OutlineList {
-    /// Adds the outline of consecutive `pieces`. Gaps within the tolerance are closed.
+    /// Adds the outline of consecutive `pieces`. Gaps within the tolerance are closed. A point is left out, because nothing can touch
+    /// it.
     pub(super) fn add(&mut self, pieces: Vec<Piece>, line: Option<usize>) -> Result<(), OutlineError> {
         self.pieces += pieces.len();
         if self.pieces > MAX_PIECES {
@@ -28,14 +30,36 @@ impl OutlineList {
         if self.outlines.len() >= MAX_OUTLINES {
             return Err(OutlineFault::TooLarge { what: "outlines", limit: MAX_OUTLINES }.at(line));
         }
-        let contour = close(pieces).and_then(|pieces| Contour::closed(pieces).map_err(fault));
-        self.outlines.push(Outline { contour: contour.map_err(|fault| fault.at(line))?, line });
+        let closed = close(pieces).map_err(|fault| fault.at(line))?;
+        if closed.is_empty() {
+            return Ok(());
+        }
+        let contour = Contour::closed(closed).map_err(|error| fault(error).at(line))?;
+        // An arc may reach farther than its ends.
+        let bounds = contour.bounding_box();
+        if [bounds.min, bounds.max].iter().any(|corner| !is_near(*corner)) {
+            return Err(OutlineFault::FarOff.at(line));
+        }
+        self.outlines.push(Outline { contour, line });
         Ok(())
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.outlines.is_empty()
+    }
+
+    /// Returns all outlines, at least one. `unseen` is the number of shapes that were left out because they are invisible.
+    pub(super) fn into_visible(self, unseen: usize) -> Result<Vec<Outline>, OutlineError> {
+        if self.is_empty() && unseen > 0 {
+            Err(OutlineFault::Invisible { unseen }.into())
+        } else {
+            self.into_outlines()
+        }
     }
 
     /// Returns all outlines, at least one.
     pub(super) fn into_outlines(self) -> Result<Vec<Outline>, OutlineError> {
-        if self.outlines.is_empty() { Err(OutlineFault::NoOutline.into()) } else { Ok(self.outlines) }
+        if self.is_empty() { Err(OutlineFault::NoOutline.into()) } else { Ok(self.outlines) }
     }
 }
 
@@ -60,6 +84,20 @@ pub(super) fn check_nesting(outlines: &[Outline]) -> Result<(), OutlineError> {
         }
     }
     Ok(())
+}
+
+/// Removes the outlines that lie inside of others.
+pub(super) fn leave_out_nested(outlines: &mut Vec<Outline>) {
+    let is_nested = |(index, inner): (usize, &Outline)| {
+        let mut others = outlines.iter().enumerate().filter(|(other, _)| *other != index);
+        // Of two equal outlines, each is inside the other. The first one is kept.
+        others.any(|(other, outer)| {
+            is_inside(&inner.contour, &outer.contour) && (other < index || !is_inside(&outer.contour, &inner.contour))
+        })
+    };
+    let is_nested: Vec<bool> = outlines.iter().enumerate().map(is_nested).collect();
+    let mut is_nested = is_nested.into_iter();
+    outlines.retain(|_| is_nested.next() != Some(true));
 }
 
 fn is_inside(inner: &Contour, outer: &Contour) -> bool {

@@ -31,13 +31,25 @@ impl Transform {
         }
     }
 
+    /// True if circles remain circles: the images of the axes are perpendicular and of equal length.
+    pub(super) fn keeps_circles(&self) -> bool {
+        const ROUND: f64 = 1e-9;
+        let (x, y) = (self.x_axis, self.y_axis);
+        let size = x.norm_squared();
+        x.dot(&y).abs() <= ROUND * size && (y.norm_squared() - size).abs() <= ROUND * size
+    }
+
     pub(super) fn direction(&self, [x, y]: [f64; 2]) -> Vector2 {
         self.x_axis * x + self.y_axis * y
     }
 
     pub(super) fn point(&self, place: [f64; 2]) -> Result<Point2, OutlineFault> {
         let point = Point2::from(self.origin + self.direction(place));
-        let is_near = point.coords.iter().all(|coordinate| coordinate.abs() <= REACH);
-        if is_near { Ok(point) } else { Err(OutlineFault::FarOff) }
+        if is_near(point) { Ok(point) } else { Err(OutlineFault::FarOff) }
     }
+}
+
+/// True if the coordinates are numbers within the limit.
+pub(super) fn is_near(point: Point2) -> bool {
+    point.coords.iter().all(|coordinate| coordinate.abs() <= REACH)
 }

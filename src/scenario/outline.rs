@@ -8,7 +8,7 @@ use super::reader::Reader;
 use super::start;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::{Contour, Pose};
-use crate::outline::{self, Format, OutlineError, OutlineFault, ReadOptions};
+use crate::outline::{self, Format, Holes, OutlineError, OutlineFault, ReadOptions};
 use vibrissa_runtime::units::Dimension;
 
 const UNIT: Key = Key::new("unit", Dimension::LENGTH, (1e-6, 10.0), "1 mm");
@@ -33,18 +33,26 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<impl Iterat
         Some(_) => Some(0.0),
         None => fields.entry(HEIGHT.name).and(None),
     };
+    let holes = match fields.entry("holes") {
+        Some(entry) => {
+            let index = reader.choice(&entry.value, "the treatment of holes", &Holes::ALL.map(Holes::name));
+            index.and_then(|index| Holes::ALL.get(index)).copied()
+        }
+        None => Some(Holes::default()),
+    };
     let frame = match fields.entry("frame") {
         Some(entry) => start::pose(reader, entry, "the frame of an outline").map(|frame| frame.value),
         None => Some(Pose::default()),
     };
     fields.finish(reader);
-    let (path, format, unit, element, height, frame) = (path?, format?, unit?, element?, height?, frame?);
+    let (path, format, unit, element) = (path?, format?, unit?, element?);
+    let (height, holes, frame) = (height?, holes?, frame?);
     let bytes = reader.file(&path.value).map_err(|reason| {
         let message = format!("cannot read `{}`", path.value);
         let fault = Diagnostic::error(fault::FILE, message, path.span, reason);
         reader.report(fault.hint("a path is relative to the folder of the scenario"));
     });
-    let options = ReadOptions { unit, element: element.as_ref().map(|element| element.value.as_str()), height };
+    let options = ReadOptions { unit, element: element.as_ref().map(|element| element.value.as_str()), height, holes };
     match outline::read(&bytes.ok()?, format, &options) {
         Ok(contours) => {
             reader.make(contours.iter().map(|contour| contour.pieces().len()).sum(), path.span)?;

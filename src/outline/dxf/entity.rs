@@ -4,12 +4,11 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{EllipticArc, Piece, Vector2, perpendicular};
 
+use super::super::text::shown;
 use super::super::transform::Transform;
-use super::super::{OutlineError, OutlineFault, TOLERANCE};
+use super::super::{OutlineError, OutlineFault};
 use super::record::Record;
-
-/// The largest radius (m) of an arc, because of rounding.
-const MAX_RADIUS: f64 = 1e6;
+use super::{polyline, spline};
 
 /// Entities that are not outlines: texts, dimensions, hatches, points, images, views, construction aids, and the end of
 /// a polyline's vertex list.
@@ -56,8 +55,10 @@ pub(super) enum EntityGeometry {
     Loose(Vec<Piece>),
 }
 
-/// A vertex of a polyline: its position, and the bulge of the following side.
-type Vertex = ([f64; 2], f64);
+/// True if entities of a kind are not outlines.
+pub(super) fn is_annotation(kind: &str) -> bool {
+    ANNOTATIONS.contains(&kind)
+}
 
 pub(super) fn geometry(entity: &Record<'_>, transform: &Transform) -> Result<EntityGeometry, OutlineError> {
     let drawn = match entity.kind {
@@ -89,29 +90,20 @@ pub(super) fn geometry(entity: &Record<'_>, transform: &Transform) -> Result<Ent
             let angles = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
             elliptic(transform, entity.place(10)?, [major, minor], angles)
         }
-        "LWPOLYLINE" => {
-            polyline(&lightweight_vertices(entity)?, entity.integer(70)?, &object_transform(entity, transform)?)
-        }
-        "POLYLINE" => {
-            polyline(&following_vertices(entity)?, entity.integer(70)?, &object_transform(entity, transform)?)
-        }
-        "SPLINE" => Err(unsupported("SPLINE", "turn it into a polyline with arcs, or save the drawing as SVG")),
-        "INSERT" => Err(unsupported("INSERT", "explode the block")),
-        kind if ANNOTATIONS.contains(&kind) => Ok(EntityGeometry::Nothing),
-        kind => {
-            let kind: String = kind.chars().filter(|letter| !letter.is_control()).take(40).collect();
-            Err(unsupported(&kind, "explode it into lines and arcs, or take it out"))
-        }
+        "LWPOLYLINE" | "POLYLINE" => return polyline::read(entity, transform),
+        "SPLINE" => return spline::read(entity, transform),
+        kind if is_annotation(kind) => Ok(EntityGeometry::Nothing),
+        kind => Err(unsupported(&shown(kind), "explode it into lines and arcs, or take it out")),
     };
     Ok(drawn?)
 }
 
 /// The transform of an entity's own coordinates. The x axis of an entity that is seen from below is reversed.
-fn object_transform(entity: &Record<'_>, transform: &Transform) -> Result<Transform, OutlineError> {
+pub(super) fn object_transform(entity: &Record<'_>, transform: &Transform) -> Result<Transform, OutlineError> {
     let [x, y, z] = [entity.number(210, 0.0)?, entity.number(220, 0.0)?, entity.number(230, 1.0)?];
     let is_level = z != 0.0 && x.abs() + y.abs() <= 1e-9 * z.abs();
     if !is_level {
-        return Err(unsupported("an entity that is tilted", "draw it in the x-y transform").into());
+        return Err(unsupported("an entity that is tilted", "draw it in the x-y plane").into());
     }
     Ok(transform.inner([z.signum(), 0.0], [0.0, 1.0], [0.0, 0.0]))
 }
@@ -138,56 +130,6 @@ fn elliptic(
     Ok(if is_whole { EntityGeometry::Whole(pieces) } else { EntityGeometry::Loose(pieces) })
 }
 
-/// The vertices of a lightweight polyline, within the entity.
-fn lightweight_vertices(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
-    let mut vertices: Vec<Vertex> = Vec::new();
-    for pair in &entity.pairs {
-        match (pair.code, vertices.last_mut()) {
-            (10, _) => vertices.push(([pair.number()?, 0.0], 0.0)),
-            (20, Some((place, _))) => place[1] = pair.number()?,
-            (42, Some((_, bulge))) => *bulge = pair.number()?,
-            _ => {}
-        }
-    }
-    Ok(vertices)
-}
-
-/// The vertices of a polyline in following entities.
-fn following_vertices(entity: &Record<'_>) -> Result<Vec<Vertex>, OutlineError> {
-    const CLOSED_OR_FITTED_BY_ARCS: i32 = 1 | 2;
-    const CONTINUOUS_PATTERN: i32 = 128;
-    if entity.integer(70)? & !(CLOSED_OR_FITTED_BY_ARCS | CONTINUOUS_PATTERN) != 0 {
-        return Err(
-            unsupported("a POLYLINE of splines, in space, or of a mesh", "explode it into lines and arcs").into()
-        );
-    }
-    entity.vertices.iter().map(|vertex| Ok((vertex.place(10)?, vertex.number(42, 0.0)?))).collect()
-}
-
-/// A polyline with arcs as sides. The bulge is the tangent of a quarter of the angle, positive to the left.
-fn polyline(vertices: &[Vertex], flags: i32, transform: &Transform) -> Result<EntityGeometry, OutlineFault> {
-    let hand = transform.x_axis.perp(&transform.y_axis).signum();
-    let is_closed = flags & 1 != 0;
-    let count = if is_closed { vertices.len() } else { vertices.len().saturating_sub(1) };
-    let mut pieces = Vec::with_capacity(count);
-    for (&(start, bulge), &(end, _)) in vertices.iter().zip(vertices.iter().cycle().skip(1)).take(count) {
-        let (start, end) = (transform.point(start)?, transform.point(end)?);
-        if !bulge.is_finite() {
-            return Err(OutlineFault::FarOff);
-        }
-        let length = (end - start).norm();
-        let (bend, size) = (0.5 * length * bulge.abs(), bulge.abs().max(bulge.abs().recip()));
-        if length * size <= MAX_RADIUS {
-            pieces.push(Piece::arc_between(start, end, 4.0 * (hand * bulge).atan()));
-        } else if bend <= TOLERANCE {
-            pieces.push(Piece::segment(start, end));
-        } else {
-            return Err(OutlineFault::Curve);
-        }
-    }
-    Ok(if is_closed { EntityGeometry::Whole(pieces) } else { EntityGeometry::Loose(pieces) })
-}
-
-fn unsupported(what: &str, advice: &'static str) -> OutlineFault {
+pub(super) fn unsupported(what: &str, advice: &'static str) -> OutlineFault {
     OutlineFault::Unsupported { what: what.to_owned(), advice }
 }

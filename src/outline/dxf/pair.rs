@@ -1,5 +1,6 @@
 //! The group pairs of a DXF: a line with a group code, and a line with its value.
 
+use super::super::text::{lines, shown};
 use super::super::{OutlineError, OutlineFault};
 
 /// A value with its group code.
@@ -25,12 +26,12 @@ impl Pair<'_> {
 
 /// The pairs of a text, up to the first invalid one.
 pub(super) fn pairs(text: &str) -> impl Iterator<Item = Result<Pair<'_>, OutlineError>> {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().zip(1..);
+    let mut lines = lines(text);
     let mut is_over = false;
     std::iter::from_fn(move || {
-        let (code, line) = lines.next().filter(|_| !is_over)?;
+        let (line, code) = lines.next().filter(|_| !is_over)?;
         let pair = match (code.trim().parse(), lines.next()) {
-            (Ok(code), Some((value, line))) => Ok(Pair { code, value: value.trim(), line }),
+            (Ok(code), Some((line, value))) => Ok(Pair { code, value: value.trim(), line }),
             (Ok(_), None) => Err(cut_off().at(Some(line))),
             (Err(_), _) => Err(syntax(line, "the number of a group", code)),
         };
@@ -45,6 +46,5 @@ pub(super) fn cut_off() -> OutlineFault {
 }
 
 fn syntax(line: usize, expected: &str, found: &str) -> OutlineError {
-    let found: String = found.chars().filter(|letter| !letter.is_control()).take(40).collect();
-    OutlineFault::Syntax { reason: format!("expected {expected}, found `{found}`") }.at(Some(line))
+    OutlineFault::Syntax { reason: format!("expected {expected}, found `{}`", shown(found)) }.at(Some(line))
 }

@@ -5,18 +5,19 @@ use svgtypes::{Length, LengthUnit};
 
 use super::super::OutlineFault;
 use super::super::transform::Transform;
+use super::styles::Styles;
 
 /// User units per inch, by the standard.
 const PER_INCH: f64 = 96.0;
 
-/// Attributes that newer drawings may set in a style. Width and height are excluded, because in a style they describe
-/// the page layout.
+/// Attributes that newer drawings may set in a style. Width and height are those of a rectangle. In another style they describe the page
+/// layout.
 const SIZES: [&str; 8] = ["d", "x", "y", "cx", "cy", "r", "rx", "ry"];
 
 /// A length in user units. `None` without the attribute.
 pub(super) fn length(node: Node<'_, '_>, name: &str) -> Result<Option<f64>, OutlineFault> {
     let Some(text) = node.attribute(name) else { return Ok(None) };
-    let Length { number, unit } = text.trim().parse().map_err(|_| unreadable(node, name, text))?;
+    let Length { number, unit } = text.trim().to_ascii_lowercase().parse().map_err(|_| unreadable(node, name, text))?;
     let scale = match unit {
         LengthUnit::None | LengthUnit::Px => 1.0,
         LengthUnit::In => PER_INCH,
@@ -37,35 +38,23 @@ pub(super) fn length_or_zero(node: Node<'_, '_>, name: &str) -> Result<f64, Outl
     Ok(length(node, name)?.unwrap_or(0.0))
 }
 
-/// The value of a property. The element's style has precedence over the attribute. Within a style, the last value or
-/// the last important value holds.
-pub(super) fn property<'n>(node: Node<'n, '_>, name: &str) -> Option<&'n str> {
-    let values = || rules(node).filter(|(rule, _)| rule.eq_ignore_ascii_case(name)).map(|(_, value)| value);
-    let important = |value: &'n str| value.split_once('!').map(|(value, _)| value);
-    let styled = values().filter_map(important).last().or_else(|| values().last());
-    styled.or_else(|| node.attribute(name)).map(str::trim)
-}
-
-/// The names and values in an element's style.
-fn rules<'n>(node: Node<'n, '_>) -> impl Iterator<Item = (&'n str, &'n str)> {
-    let rules = node.attribute("style").unwrap_or_default().split(';').filter_map(|rule| rule.split_once(':'));
-    rules.map(|(name, value)| (name.trim(), value.trim()))
-}
-
-/// True if a style has syntax that [`property`] does not support.
+/// True if a style has syntax that [`Styles`] does not support.
 pub(super) fn is_intricate(node: Node<'_, '_>) -> bool {
     node.attribute("style").is_some_and(|style| style.contains("/*") || style.contains('\\'))
 }
 
 /// The transform within an element.
-pub(super) fn inner(node: Node<'_, '_>, outer: &Transform) -> Result<Transform, OutlineFault> {
+pub(super) fn inner(node: Node<'_, '_>, outer: &Transform, styles: &Styles) -> Result<Transform, OutlineFault> {
     for name in ["clip-path", "mask"] {
-        if property(node, name).is_some_and(|value| !value.eq_ignore_ascii_case("none")) {
+        if styles.property(node, name).is_some_and(|value| !value.eq_ignore_ascii_case("none")) {
             let what = format!("`{}` with a `{name}`", node.tag_name().name());
             return Err(OutlineFault::Unsupported { what, advice: "cut the shape itself, and take that out" });
         }
     }
-    if let Some((name, _)) = rules(node).find(|(name, _)| SIZES.iter().any(|size| name.eq_ignore_ascii_case(size))) {
+    let is_rectangle = node.tag_name().name() == "rect";
+    let sizes = || SIZES.iter().chain(if is_rectangle { ["width", "height"].iter() } else { [].iter() });
+    let mut declarations = styles.declarations(node);
+    if let Some((name, _)) = declarations.find(|(name, _)| sizes().any(|size| name.eq_ignore_ascii_case(size))) {
         let what = format!("`{name}` in a `style`");
         return Err(OutlineFault::Unsupported { what, advice: "write it as an attribute" });
     }
@@ -73,7 +62,7 @@ pub(super) fn inner(node: Node<'_, '_>, outer: &Transform) -> Result<Transform, 
         let name = name.to_ascii_lowercase();
         name.starts_with("transform") || ["translate", "rotate", "scale"].contains(&name.as_str())
     };
-    if node.attribute("transform-origin").is_some() || rules(node).any(|(name, _)| moves(name)) {
+    if node.attribute("transform-origin").is_some() || styles.declarations(node).any(|(name, _)| moves(name)) {
         let what = "a transformation by style or about an origin of its own".to_owned();
         return Err(OutlineFault::Unsupported { what, advice: "write it as a `transform` attribute" });
     }

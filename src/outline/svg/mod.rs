@@ -3,20 +3,24 @@
 mod arc;
 mod attribute;
 mod bounds;
+mod paint;
 mod path;
 mod root;
 mod shape;
+mod styles;
 mod walk;
 
 use std::collections::HashMap;
 
-use roxmltree::{Document, ParsingOptions};
+use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::diagnostic::{Source, utf8};
 use vibrissa_runtime::units::suggest;
 
 use super::outline_list::{Outline, OutlineList};
 use super::{OutlineError, OutlineFault, ReadOptions};
+use paint::Look;
+use styles::Styles;
 use walk::Walk;
 
 /// The largest number of elements, attributes and texts of a document.
@@ -38,15 +42,17 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
         let reason = format!("it is no SVG: it begins with `{}`", root.tag_name().name());
         return Err(OutlineFault::Syntax { reason }.into());
     }
-    let transform = root::transform(root, options.unit)?;
+    let source = Source::new("", text);
+    let line = |node: Node<'_, '_>| Some(source.line_column(node.range().start).line);
+    let styles = Styles::read(document.root()).map_err(|(node, fault)| fault.at(line(node)))?;
+    let transform = root::transform(root, options.unit, &styles)?;
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
     // Of two elements with one id, the first counts.
     let named: HashMap<_, _> = ids.rev().collect();
-    let mut walk = Walk { named, source: Source::new("", text), outlines: OutlineList::default(), steps: 0 };
-    walk.check(document.root())?;
+    let mut walk = Walk { named, source, styles, outlines: OutlineList::default(), unseen: 0, steps: 0 };
     let Some(element) = options.element else {
-        walk.read_visible(root, &transform, 0, true)?;
-        return walk.outlines.into_outlines();
+        walk.read_visible(root, &transform, 0, Look::initial())?;
+        return walk.outlines.into_visible(walk.unseen);
     };
     let Some(&node) = walk.named.get(element) else {
         let mut ids: Vec<&str> = walk.named.keys().copied().collect();
@@ -55,7 +61,7 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
         return Err(OutlineFault::NoElement { element: element.to_owned(), meant }.into());
     };
     walk.read_element(node, &transform)?;
-    walk.outlines.into_outlines()
+    walk.outlines.into_visible(walk.unseen)
 }
 
 fn syntax(reason: &str) -> OutlineFault {

@@ -1,32 +1,52 @@
 //! The user unit of a document.
 
 use roxmltree::Node;
-use svgtypes::{Length, LengthUnit, ViewBox};
+use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
 use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault};
+use super::styles::Styles;
 
-/// The largest relative difference of the scales of width and height, because their digits are rounded.
+/// The largest relative difference of the scales of width and height that comes from rounding of their digits.
 const EVEN: f64 = 1e-4;
 
 /// The transform of the document's coordinates, y up. A user unit is `unit` (m), or follows from width, height and view
 /// box.
-pub(super) fn transform(root: Node<'_, '_>, unit: Option<f64>) -> Result<Transform, OutlineError> {
-    let unit = unit.or_else(|| unit_of(root)).ok_or(OutlineFault::NoUnit)?;
+pub(super) fn transform(root: Node<'_, '_>, unit: Option<f64>, styles: &Styles) -> Result<Transform, OutlineError> {
+    let [across, up] = match unit {
+        Some(unit) => [unit, unit],
+        None => units_of(root, styles).ok_or(OutlineFault::NoUnit)?,
+    };
     // The y axis of the file points down.
-    Ok(Transform::scaled(unit).inner([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
+    Ok(Transform::scaled(1.0).inner([across, 0.0], [0.0, -up], [0.0, 0.0]))
 }
 
-/// The user unit (m), if width and height are physical lengths and the view box gives their number of units.
-fn unit_of(root: Node<'_, '_>) -> Option<f64> {
+/// The lengths (m) of a user unit along x and y, if width and height are physical lengths and the view box gives their number of units.
+/// If they give different scales, the drawing is fitted into the frame with one of them, or stretched.
+fn units_of(root: Node<'_, '_>, styles: &Styles) -> Option<[f64; 2]> {
     let view: ViewBox = root.attribute("viewBox")?.parse().ok()?;
-    let paper = |name| metres(root.attribute(name)?.parse().ok()?);
+    let paper = |name| metres(styles.property(root, name)?);
     let (across, up) = (paper("width")? / view.w, paper("height")? / view.h);
-    ((across - up).abs() <= EVEN * across).then_some(across)
+    if (across - up).abs() <= EVEN * across {
+        return Some([across, across]);
+    }
+    // The standard ignores an invalid value.
+    let ratio = root.attribute("preserveAspectRatio").and_then(|text| text.trim().parse::<AspectRatio>().ok());
+    Some(match ratio {
+        Some(AspectRatio { align: Align::None, .. }) => [across, up],
+        Some(AspectRatio { slice: true, .. }) => [across.max(up); 2],
+        _ => [across.min(up); 2],
+    })
 }
 
-/// A physical length (m).
-fn metres(length: Length) -> Option<f64> {
+/// A physical length (m). Units have any case, and there may be a blank before them.
+fn metres(text: &str) -> Option<f64> {
+    let text: String = text.chars().filter(|letter| !letter.is_whitespace()).collect::<String>().to_ascii_lowercase();
+    // The parser does not know quarter-millimetres.
+    if let Some(quarters) = text.strip_suffix('q') {
+        return quarters.parse::<f64>().ok().map(|quarters| quarters * 0.25e-3).filter(|length| *length > 0.0);
+    }
+    let length: Length = text.parse().ok()?;
     let unit = match length.unit {
         LengthUnit::Mm => 1e-3,
         LengthUnit::Cm => 1e-2,
@@ -35,5 +55,5 @@ fn metres(length: Length) -> Option<f64> {
         LengthUnit::Pc => 25.4e-3 / 6.0,
         LengthUnit::None | LengthUnit::Px | LengthUnit::Em | LengthUnit::Ex | LengthUnit::Percent => return None,
     };
-    Some(length.number * unit)
+    Some(length.number * unit).filter(|length| *length > 0.0)
 }

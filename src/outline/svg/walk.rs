@@ -9,13 +9,16 @@ use crate::diagnostic::Source;
 use super::super::outline_list::OutlineList;
 use super::super::transform::Transform;
 use super::super::{OutlineError, OutlineFault};
-use super::attribute::{inner, is_intricate, length_or_zero, property};
+use super::attribute::{inner, is_intricate, length_or_zero};
+use super::paint::{Look, is_transparent, is_undrawn};
+use super::styles::Styles;
 use super::{path, shape};
 
 /// The largest nesting depth of elements.
 const DEEPEST: usize = 100;
 
-/// The largest number of steps. A node counts one step, plus a share for the bytes of its attributes. Content repeated
+/// The largest number of steps. A node counts one step, plus a share for the bytes of its attributes and of its
+/// rules in style sheets. Content repeated
 /// by `use` counts each time. A file without `use` never reaches the limit.
 const MAX_STEPS: usize = 1_000_000;
 const BYTES_PER_STEP: usize = 64;
@@ -24,28 +27,39 @@ const BYTES_PER_STEP: usize = 64;
 pub(super) struct Walk<'d> {
     /// The elements with an id.
     pub(super) named: HashMap<&'d str, Node<'d, 'd>>,
+    pub(super) styles: Styles,
     /// The text, for line numbers.
     pub(super) source: Source,
     pub(super) outlines: OutlineList,
+    /// The number of shapes and groups that cannot be seen.
+    pub(super) unseen: usize,
     pub(super) steps: usize,
 }
 
 impl<'d> Walk<'d> {
-    /// Reads one element with the transforms of its ancestors, regardless of its visibility.
+    /// Reads one element with the transforms of its ancestors, even if it is hidden. If nothing in it is visible, everything in it is
+    /// read.
     pub(super) fn read_element(&mut self, node: Node<'d, 'd>, root: &Transform) -> Result<(), OutlineError> {
         let mut transform = *root;
+        let mut look = Look::initial();
         let above: Vec<_> = node.ancestors().skip(1).filter(Node::is_element).collect();
         for outer in above.into_iter().rev() {
             transform = self.inner_transform(outer, &transform)?;
+            look = look.inner(outer, &self.named, &self.styles);
         }
+        let look = look.inner(node, &self.named, &self.styles).shown();
         self.count_step(node, 0)?;
-        self.draw(node, &transform, 0, true)
+        self.draw(node, &transform, 0, look)?;
+        if self.outlines.is_empty() && self.unseen > 0 {
+            self.draw(node, &transform, 0, look.forced())?;
+        }
+        Ok(())
     }
 
     /// Counts the cost of a node before it is read.
     fn count_step(&mut self, node: Node<'d, 'd>, depth: usize) -> Result<(), OutlineError> {
         let bytes: usize = node.attributes().map(|attribute| attribute.name().len() + attribute.value().len()).sum();
-        self.steps += 1 + bytes / BYTES_PER_STEP;
+        self.steps += 1 + (bytes + self.styles.size(node)) / BYTES_PER_STEP;
         if depth > DEEPEST {
             return Err(self.at(node, OutlineFault::TooLarge { what: "elements in each other", limit: DEEPEST }));
         }
@@ -60,57 +74,54 @@ impl<'d> Walk<'d> {
         Ok(())
     }
 
-    /// Reports style sheets, because they may hide, move or change any element.
-    pub(super) fn check(&self, document: Node<'d, 'd>) -> Result<(), OutlineError> {
-        let is_sheet = |node: &Node<'_, '_>| {
-            is(*node, "style") || node.pi().is_some_and(|instruction| instruction.target == "xml-stylesheet")
-        };
-        let Some(sheet) = document.descendants().find(is_sheet) else { return Ok(()) };
-        let what = "a style sheet".to_owned();
-        let advice = "save it with the properties as attributes of the elements, and take the sheet out";
-        Err(self.at(sheet, OutlineFault::Unsupported { what, advice }))
-    }
-
-    /// Reads the visible content of an element. `is_visible` is the inherited visibility.
+    /// Reads the visible content of an element. `look` is that of the element around it.
     pub(super) fn read_visible(
         &mut self,
         node: Node<'d, 'd>,
         transform: &Transform,
         depth: usize,
-        is_visible: bool,
+        look: Look,
     ) -> Result<(), OutlineError> {
         self.count_step(node, depth)?;
-        let is_hidden = property(node, "display").is_some_and(|value| value.eq_ignore_ascii_case("none"));
         // A symbol is drawn only by `use`.
-        if is_hidden || is(node, "symbol") {
+        if is(node, "symbol") {
             return Ok(());
         }
-        self.draw(node, transform, depth, visibility(node).unwrap_or(is_visible))
+        if is_undrawn(node, &self.styles) || is_transparent(node, &self.styles) {
+            self.unseen += 1;
+            return Ok(());
+        }
+        self.draw(node, transform, depth, look.inner(node, &self.named, &self.styles))
     }
 
+    /// Draws an element with its own look.
     fn draw(
         &mut self,
         node: Node<'d, 'd>,
         transform: &Transform,
         depth: usize,
-        is_visible: bool,
+        look: Look,
     ) -> Result<(), OutlineError> {
         match node.tag_name().name() {
             "svg" | "g" | "a" | "symbol" => {
                 let transform = self.inner_transform(node, transform)?;
                 // Texts and comments also count as steps.
                 for child in node.children() {
-                    self.read_visible(child, &transform, depth + 1, is_visible)?;
+                    self.read_visible(child, &transform, depth + 1, look)?;
                 }
             }
-            "use" => self.draw_use(node, transform, depth, is_visible)?,
+            "use" => self.draw_use(node, transform, depth, look)?,
             "switch" => {
                 let what = "`switch`, which shows one of several things,".to_owned();
                 let advice = "put what it is to show in its place";
                 return Err(self.at(node, OutlineFault::Unsupported { what, advice }));
             }
-            // Parts of a hidden group may be visible, but a hidden shape is not.
-            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" if is_visible => {
+            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" => {
+                // Parts of a hidden group may be visible, but a hidden shape is not.
+                if !look.shows(node) {
+                    self.unseen += 1;
+                    return Ok(());
+                }
                 let transform = self.inner_transform(node, transform)?;
                 let drawn = if is(node, "path") { path::read(node, &transform) } else { shape::read(node, &transform) };
                 let drawn = drawn.map_err(|fault| self.at(node, fault))?;
@@ -132,7 +143,7 @@ impl<'d> Walk<'d> {
         node: Node<'d, 'd>,
         transform: &Transform,
         depth: usize,
-        is_visible: bool,
+        look: Look,
     ) -> Result<(), OutlineError> {
         let link = node.attributes().find(|attribute| attribute.name() == "href").map_or("", |link| link.value());
         let Some(&found) = link.strip_prefix('#').and_then(|target| self.named.get(target)) else {
@@ -144,10 +155,13 @@ impl<'d> Walk<'d> {
         let offset = offset.map_err(|fault| self.at(node, fault))?;
         let transform = transform.inner([1.0, 0.0], [0.0, 1.0], offset);
         if !is(found, "symbol") {
-            return self.read_visible(found, &transform, depth + 1, is_visible);
+            return self.read_visible(found, &transform, depth + 1, look);
         }
         self.count_step(found, depth + 1)?;
-        self.draw(found, &transform, depth + 1, visibility(found).unwrap_or(is_visible))
+        if is_transparent(found, &self.styles) {
+            return Ok(());
+        }
+        self.draw(found, &transform, depth + 1, look.inner(found, &self.named, &self.styles))
     }
 
     /// The transform within an element.
@@ -159,7 +173,7 @@ impl<'d> Walk<'d> {
             let advice = "take its contents out of it, or use a group with a `transform`";
             return Err(self.at(node, OutlineFault::Unsupported { what, advice }));
         }
-        inner(node, transform).map_err(|fault| self.at(node, fault))
+        inner(node, transform, &self.styles).map_err(|fault| self.at(node, fault))
     }
 
     fn at(&self, node: Node<'d, 'd>, fault: OutlineFault) -> OutlineError {
@@ -168,15 +182,6 @@ impl<'d> Walk<'d> {
 
     fn line(&self, node: Node<'d, 'd>) -> usize {
         self.source.line_column(node.range().start).line
-    }
-}
-
-/// The visibility that an element states itself.
-fn visibility(node: Node<'_, '_>) -> Option<bool> {
-    match property(node, "visibility")?.to_ascii_lowercase().as_str() {
-        "hidden" | "collapse" => Some(false),
-        "visible" | "initial" => Some(true),
-        _ => None,
     }
 }
 

@@ -7,7 +7,7 @@ use super::folder;
 
 fn is_answered(bytes: &[u8], format: Format) {
     for element in [None, Some("star")] {
-        let options = ReadOptions { unit: Some(1e-3), element, height: 0.01 };
+        let options = ReadOptions { unit: Some(1e-3), element, height: 0.01, ..ReadOptions::default() };
         match read(bytes, format, &options) {
             Ok(contours) => assert!(!contours.is_empty() && contours.iter().all(|contour| contour.area() > 0.0)),
             Err(error) => assert!(!error.to_string().is_empty() && !error.fault.advice().is_empty()),
@@ -88,7 +88,7 @@ fn elements_that_repeat_each_other_come_to_an_end() {
 
 #[test]
 fn what_draws_nothing_is_bounded_too() {
-    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.0 };
+    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.0, ..ReadOptions::default() };
     let read = |inner: &str| read(format!("<svg>{inner}</svg>").as_bytes(), Format::Svg, &options).unwrap_err();
     // All in one line, so that each count of its columns would go through it from the start.
     assert_eq!(read(&"<rect/>".repeat(300_000)).fault, OutlineFault::NoOutline);

@@ -1,6 +1,8 @@
 //! Outlines from files: what is drawn is what becomes of it, and whatever is in a file is answered.
 
 mod bad;
+mod cases;
+mod csv;
 mod dxf;
 mod hostile;
 mod same;
@@ -21,7 +23,7 @@ fn folder() -> PathBuf {
 /// The outlines of a file, in which 1 is a millimetre.
 fn outlines(file: &str) -> Result<Vec<Contour>, OutlineError> {
     let bytes = std::fs::read(folder().join(file)).unwrap();
-    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.01 };
+    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.01, ..ReadOptions::default() };
     read(&bytes, Format::of(file).unwrap(), &options)
 }
 

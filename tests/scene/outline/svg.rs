@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use vibrissa::geometry::{Contour, Point2, circle};
-use vibrissa::outline::{Format, OutlineError, OutlineFault, ReadOptions, read};
+use vibrissa::outline::{Format, Holes, OutlineError, OutlineFault, ReadOptions, read};
 
 use super::apart;
 
@@ -12,7 +12,7 @@ fn all(inner: &str, request: &ReadOptions<'_>) -> Result<Vec<Contour>, OutlineEr
     read(text.as_bytes(), Format::Svg, request)
 }
 
-const MILLIMETRES: ReadOptions<'_> = ReadOptions { unit: Some(1e-3), element: None, height: 0.0 };
+const MILLIMETRES: ReadOptions<'_> = ReadOptions { unit: Some(1e-3), element: None, height: 0.0, holes: Holes::Refuse };
 
 fn one(inner: &str) -> Contour {
     let [contour] = all(inner, &MILLIMETRES).unwrap().try_into().unwrap();
@@ -124,11 +124,160 @@ fn paper_and_view_box_say_what_a_unit_is_and_the_scenario_overrules_them() {
     assert!((width("width='100mm' height='5cm'", None).unwrap() - 0.005).abs() < 1e-15);
     assert!((width("width='2in' height='1in'", None).unwrap() - 0.00254).abs() < 1e-15);
     assert!((width("width='100mm' height='5cm'", Some(1e-3)).unwrap() - 0.01).abs() < 1e-15);
-    for unknown in
-        ["", "width='100' height='50'", "width='100mm'", "width='100mm' height='60mm'", "width='100%' height='100%'"]
-    {
+    for unknown in ["", "width='100' height='50'", "width='100mm'", "width='100%' height='100%'"] {
         assert_eq!(width(unknown, None).unwrap_err().fault, OutlineFault::NoUnit, "{unknown}");
     }
+}
+
+#[test]
+fn a_drawing_is_fitted_into_its_frame_and_a_unit_has_any_case() {
+    let bounds = |frame: &str| {
+        let text = format!("<svg {frame} viewBox='0 0 200 100'><rect width='10' height='10'/></svg>");
+        let outlines = read(text.as_bytes(), Format::Svg, &ReadOptions::default()).unwrap();
+        let size = outlines[0].bounding_box();
+        [size.max.x - size.min.x, size.max.y - size.min.y].map(|length| (length * 1e9).round() / 1e6)
+    };
+    assert_eq!(bounds("width='100mm' height='60mm'"), [5.0, 5.0]);
+    assert_eq!(bounds("width='200mm' height='60mm' preserveAspectRatio='xMinYMax meet'"), [6.0, 6.0]);
+    assert_eq!(bounds("width='100mm' height='60mm' preserveAspectRatio='xMidYMid slice'"), [6.0, 6.0]);
+    assert_eq!(bounds("width='100mm' height='60mm' preserveAspectRatio='none'"), [5.0, 6.0]);
+    for same in [
+        "width='100MM' height='5Cm'",
+        "width=' 100 mm ' height='50mm'",
+        "width='400Q' height='200q'",
+        "style='width: 100mm; height: 50mm'",
+        "width='7' height='8' style='width:100mm;height:50mm'",
+    ] {
+        assert_eq!(bounds(same), [5.0, 5.0], "{same}");
+    }
+}
+
+#[test]
+fn what_is_not_painted_is_no_object() {
+    let unseen = [
+        "<circle cx='20' r='5' fill='none'/>",
+        "<circle cx='20' r='5' fill='transparent'/>",
+        "<circle cx='20' r='5' style='FILL: None'/>",
+        "<circle cx='20' r='5' fill='red' style='fill:none'/>",
+        "<circle cx='20' r='5' fill='#f000'/>",
+        "<circle cx='20' r='5' fill='rgba(1, 2, 3, 0)'/>",
+        "<circle cx='20' r='5' fill-opacity='0'/>",
+        "<circle cx='20' r='5' style='fill-opacity:0%'/>",
+        "<circle cx='20' r='5' fill='url(#gone)'/>",
+        "<circle cx='20' r='5' fill='none' stroke='none'/>",
+        "<circle cx='20' r='5' fill='none' stroke='red' stroke-width='0'/>",
+        "<circle cx='20' r='5' fill='none' stroke='red' stroke-width='0px'/>",
+        "<circle cx='20' r='5' fill='none' stroke='red' stroke-opacity='0.0'/>",
+        "<circle cx='20' r='5' opacity='0'/>",
+        "<g opacity='0'><circle cx='20' r='5' opacity='1' fill='red'/></g>",
+        "<g fill='none'><g stroke-width='1'><circle cx='20' r='5'/></g></g>",
+        "<g fill='none'><circle cx='20' r='5' fill='inherit'/></g>",
+        "<g fill='none' stroke='red'><circle cx='20' r='5' stroke='none'/></g>",
+        "<line x1='20' x2='30' y2='5'/>",
+        "<defs><circle id='c' r='5'/></defs><use href='#c' x='20' fill='none'/>",
+        "<defs><g fill='red'><circle id='c' r='5'/></g></defs><g fill='none'><use href='#c' x='20'/></g>",
+        "<symbol id='s' opacity='0'><circle r='5'/></symbol><use href='#s' x='20'/>",
+        "<symbol id='s' fill='none'><circle r='5'/></symbol><use href='#s' x='20'/>",
+    ];
+    for drawing in unseen {
+        let found = all(&format!("<circle r='5'/>{drawing}"), &MILLIMETRES).unwrap();
+        assert_eq!(found.len(), 1, "{drawing}");
+    }
+    let seen = [
+        "<circle cx='20' r='5' fill='none' stroke='red'/>",
+        "<circle cx='20' r='5' fill='none' stroke='#000' stroke-width='0.01'/>",
+        "<circle cx='20' r='5' fill='none' style='stroke: currentColor'/>",
+        "<circle cx='20' r='5' fill='white'/>",
+        "<circle cx='20' r='5' fill='#FFF8'/>",
+        "<circle cx='20' r='5' fill='url(#gone) blue'/>",
+        "<pattern id='p'/><circle cx='20' r='5' fill='url(#p)'/>",
+        "<circle cx='20' r='5' fill='no colour'/>",
+        "<circle cx='20' r='5' fill='none' style='fill:red'/>",
+        "<g fill='none'><circle cx='20' r='5' fill='initial'/></g>",
+        "<g fill='none' stroke='red'><g><circle cx='20' r='5'/></g></g>",
+        "<g fill-opacity='0'><circle cx='20' r='5' fill-opacity='0.1'/></g>",
+        "<circle cx='20' r='5' opacity='1%'/>",
+        "<defs><circle id='c' r='5' fill='red'/></defs><use href='#c' x='20' fill='none'/>",
+        "<defs><g fill='none'><circle id='c' r='5'/></g></defs><use href='#c' x='20'/>",
+    ];
+    for drawing in seen {
+        let found = all(&format!("<circle r='5'/>{drawing}"), &MILLIMETRES).unwrap();
+        assert_eq!(found.len(), 2, "{drawing}");
+    }
+}
+
+#[test]
+fn a_style_sheet_holds_for_the_elements_that_it_names() {
+    let count = |sheet: &str, shape: &str| {
+        let drawing = format!("<style type='text/css'>{sheet}</style><circle id='c' r='5'/>{shape}");
+        all(&drawing, &MILLIMETRES).unwrap().len()
+    };
+    let other = "<g class='a b'><path class='cls-1 frame' d='M20 0h9v9z'/></g>";
+    for sheet in [
+        ".cls-1 { fill: none; }",
+        ".x,.cls-1,.y{fill:none}",
+        "path { display: none }",
+        ".b { opacity: 0 }",
+        "/* a frame */ path.frame { fill : NONE }\n.cls-2 {fill: red}",
+        ".cls-1 { fill: red } .cls-1.frame { fill: none } path { fill: blue }",
+        ".cls-1 { fill: none !important } .frame { fill: red }",
+        "* { visibility: hidden } #c { visibility: visible }",
+        "<![CDATA[ .frame { fill: red; fill: none; } ]]>",
+    ] {
+        assert_eq!(count(sheet, other), 1, "{sheet}");
+    }
+    for sheet in [
+        "",
+        " /* nothing */ ",
+        ".cls { fill: none }",
+        "rect { fill: none }",
+        ".cls-1 { fill: none; stroke: red }",
+        ".cls-1 { fill: none } .frame { fill: red }",
+        ".cls-1 { fill: red } * { fill: none } circle { fill: red }",
+    ] {
+        assert_eq!(count(sheet, other), 2, "{sheet}");
+    }
+    assert_eq!(count(".f { fill: none }", "<rect class='f' width='9' height='9' style='fill:red' x='20'/>"), 2);
+    assert_eq!(count(".f { fill: red }", "<rect class='f' width='9' height='9' fill='none' x='20'/>"), 2);
+    for sheet in [
+        "@import 'a.css';",
+        "@media print { .a { fill: none } }",
+        "g path { fill: none }",
+        "path:hover { fill: none }",
+        "[id] { fill: none }",
+        ".a { fill: none",
+        ".a { fill: none } /* open",
+        ".\\61 { fill: none }",
+        ".a { fill: none } b",
+    ] {
+        let error = all(&format!("<style>{sheet}</style><circle r='5'/>"), &MILLIMETRES).unwrap_err();
+        assert!(matches!(error.fault, OutlineFault::Unsupported { .. }) && error.line == Some(2), "{sheet}: {error}");
+    }
+    let moved = "<style>.a { transform: scale(2) }</style><circle class='a' r='5'/>";
+    let wide = "<style>.a { width: 20px }</style><rect class='a' width='5' height='5'/>";
+    for drawing in [moved, wide] {
+        let error = all(drawing, &MILLIMETRES).unwrap_err();
+        assert!(matches!(error.fault, OutlineFault::Unsupported { .. }), "{drawing}: {error}");
+    }
+    let (rules, long) = (".a { fill: none } ".repeat(1000), "fill: red; ".repeat(10_000));
+    for crowd in [
+        format!("<style>{rules}</style>{}", "<g/>".repeat(10_000)),
+        format!("<style>{}a {{ fill: none }}</style><g class='{}'/>", ".a,".repeat(1000), "b ".repeat(100_000)),
+        format!("<style>.a {{ {long} }}</style>{}", "<g class='a'/>".repeat(1000)),
+    ] {
+        assert!(matches!(all(&crowd, &MILLIMETRES).unwrap_err().fault, OutlineFault::TooLarge { .. }));
+    }
+}
+
+#[test]
+fn what_is_asked_for_is_read_without_paint_only_if_nothing_in_it_has_any() {
+    let frame = "<g id='icon' fill='none'><rect id='frame' width='24' height='24'/>";
+    let asked = |drawing: &str, element| all(drawing, &ReadOptions { element: Some(element), ..MILLIMETRES });
+    assert_eq!(asked(&format!("{frame}<circle fill='red' r='5'/></g>"), "icon").unwrap().len(), 1);
+    assert_eq!(asked(&format!("{frame}</g>"), "icon").unwrap().len(), 1);
+    assert_eq!(asked(&format!("{frame}</g>"), "frame").unwrap().len(), 1);
+    let error = all(&format!("{frame}</g>"), &MILLIMETRES).unwrap_err();
+    assert_eq!(error.fault, OutlineFault::Invisible { unseen: 1 });
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! STL: the outlines of a mesh in a cutting plane.
 
-use std::io::{Cursor, ErrorKind};
-
-use stl_io::{Vector, Vertex, create_stl_reader};
+mod binary;
+mod text;
+mod triangle;
 
 use crate::geometry::{Piece, Point2};
 
@@ -10,35 +10,34 @@ use super::assemble::{LoosePiece, assemble};
 use super::outline_list::{Outline, OutlineList};
 use super::transform::Transform;
 use super::{MAX_PIECES, OutlineError, OutlineFault, ReadOptions, TOLERANCE};
-
-/// The number of bytes before the triangles of a binary file, and of a triangle.
-const HEADER: usize = 84;
-const TRIANGLE: usize = 50;
+use triangle::Triangle;
 
 /// The largest number of triangle sides in the plane, before collinear ones are merged.
 const MAX_SIDES: usize = 2 * MAX_PIECES;
 
-/// Reads the outlines in the plane of one height.
+/// Reads the outlines in the plane of one height. A solid that is closed there has its own outlines. The others are parts of one
+/// surface and are joined.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let unit = options.unit.ok_or(OutlineFault::NoUnit)?;
-    let mut sides: Vec<LoosePiece> = Vec::new();
-    let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
-    let cut = Cut { plane: Transform::scaled(unit), unit, height: options.height };
-    let mut bytes = Cursor::new(with_type_marker(bytes));
-    for triangle in create_stl_reader(&mut bytes).map_err(|error| refusal(&error))? {
-        let corners = triangle.map_err(|error| refusal(&error))?.vertices.map(|vertex| cut.place(vertex));
-        let [a, b, c] = corners;
-        let corners = [a?, b?, c?];
-        for corner in &corners {
-            extent = (extent.0.min(corner.above), extent.1.max(corner.above));
-        }
-        sides.extend(side(&corners).map(|side| (side, None)));
-        if sides.len() > MAX_SIDES {
-            return Err(OutlineFault::TooLarge { what: "triangles in the plane", limit: MAX_SIDES }.into());
+    let is_text = !binary::is_binary(bytes) && text::is_text(bytes);
+    let solids = if is_text { text::read(bytes)? } else { vec![binary::read(bytes)?] };
+    let mut cut = Cut {
+        plane: Transform::scaled(unit),
+        unit,
+        height: options.height,
+        extent: (f64::INFINITY, f64::NEG_INFINITY),
+        count: 0,
+    };
+    let (mut loops, mut parts) = (Vec::new(), Vec::new());
+    for solid in &solids {
+        let sides = cut.sides(solid)?;
+        match assemble(&sides) {
+            Ok(closed) => loops.extend(closed),
+            Err(_) => parts.extend(sides),
         }
     }
-    if sides.is_empty() {
-        return Err(match extent {
+    if cut.count == 0 {
+        return Err(match cut.extent {
             (low, high) if low <= high => {
                 OutlineFault::Missed { height: cut.height, lowest: low + cut.height, highest: high + cut.height }
             }
@@ -46,10 +45,10 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
         }
         .into());
     }
-    let loops = assemble(&sides).map_err(|error| match error.fault {
+    loops.extend(assemble(&parts).map_err(|error| match error.fault {
         OutlineFault::Open { from, .. } => OutlineFault::NotWatertight { at: from }.into(),
         _ => error,
-    })?;
+    })?);
     let mut outlines = OutlineList::default();
     for (pieces, _) in loops {
         outlines.add(straightened(&pieces), None)?;
@@ -57,26 +56,15 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     outlines.into_outlines()
 }
 
-/// Returns the bytes in a form in which the reader recognises the file type, by `solid ` at the beginning. A text file
-/// may lack the blank, and a binary file may begin so too. The length of the file decides.
-fn with_type_marker(bytes: &[u8]) -> Vec<u8> {
-    let count = bytes.first_chunk::<HEADER>().map(|&[.., a, b, c, d]| u32::from_le_bytes([a, b, c, d]));
-    let length = count.and_then(|count| usize::try_from(count).ok()?.checked_mul(TRIANGLE)?.checked_add(HEADER));
-    let is_binary = length == Some(bytes.len());
-    let mut prepared = bytes.to_vec();
-    if is_binary {
-        prepared[..HEADER - 4].fill(0);
-    } else if bytes.starts_with(b"solid") && bytes.get(5).is_some_and(|&next| next != b' ') {
-        prepared.insert(5, b' ');
-    }
-    prepared
-}
-
 /// A cut by a plane.
 struct Cut {
     plane: Transform,
     unit: f64,
     height: f64,
+    /// The heights of the lowest and the highest corner above the plane (m).
+    extent: (f64, f64),
+    /// The number of triangle sides in the plane.
+    count: usize,
 }
 
 /// A corner of a triangle: its position in the plane's coordinates, and its height above the plane (m).
@@ -86,7 +74,25 @@ struct Corner {
 }
 
 impl Cut {
-    fn place(&self, Vector([x, y, z]): Vertex) -> Result<Corner, OutlineFault> {
+    /// The intersections of triangles with the plane.
+    fn sides(&mut self, triangles: &[Triangle]) -> Result<Vec<LoosePiece>, OutlineError> {
+        let mut sides = Vec::new();
+        for Triangle { corners, line } in triangles {
+            let [a, b, c] = corners.map(|corner| self.place(corner).map_err(|fault| fault.at(*line)));
+            let corners = [a?, b?, c?];
+            for corner in &corners {
+                self.extent = (self.extent.0.min(corner.above), self.extent.1.max(corner.above));
+            }
+            sides.extend(side(&corners).map(|side| (side, None)));
+            if self.count + sides.len() > MAX_SIDES {
+                return Err(OutlineFault::TooLarge { what: "triangles in the plane", limit: MAX_SIDES }.at(*line));
+            }
+        }
+        self.count += sides.len();
+        Ok(sides)
+    }
+
+    fn place(&self, [x, y, z]: [f32; 3]) -> Result<Corner, OutlineFault> {
         let above = f64::from(z) * self.unit - self.height;
         let place = self.plane.point([x.into(), y.into()])?;
         if above.abs() <= 100.0 { Ok(Corner { place, above }) } else { Err(OutlineFault::FarOff) }
@@ -138,12 +144,4 @@ fn is_straight(places: &[Point2]) -> bool {
         let offset = place - first;
         along.perp(&offset).abs() <= 0.5 * TOLERANCE && (0.0..=length).contains(&along.dot(&offset))
     })
-}
-
-fn refusal(error: &std::io::Error) -> OutlineError {
-    let reason = match error.kind() {
-        ErrorKind::UnexpectedEof => "it ends in the middle of a triangle".to_owned(),
-        _ => format!("it is no STL: {error}"),
-    };
-    OutlineFault::Syntax { reason }.into()
 }
