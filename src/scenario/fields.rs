@@ -75,7 +75,13 @@ impl<'n> Fields<'n> {
             }
             let message = format!("{} has no key `{}`", self.what, key.value);
             let mut diagnostic = Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, "unknown key");
-            if let Some(meant) = suggest(&key.value, absent.iter().copied()) {
+            // A colon without a blank behind it is a part of the key.
+            let joined = key.value.split_once(':').filter(|(name, _)| absent.contains(&name.trim()));
+            if let Some((name, value)) = joined {
+                let (name, value) = (name.trim(), value.trim());
+                diagnostic = diagnostic.hint(format!("write a blank after the colon: `{name}: {value}`"));
+                self.missing.retain(|(missing, _)| *missing != name);
+            } else if let Some(meant) = suggest(&key.value, absent.iter().copied()) {
                 diagnostic = diagnostic.hint(format!("did you mean `{meant}`?"));
                 // A misspelt key is not reported as missing, because the diagnostic of the unknown key already suggests
                 // it.

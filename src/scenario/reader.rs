@@ -7,6 +7,7 @@ use super::node::{Entry, Node, Placed};
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
 use crate::outline::MAX_PIECES;
 use crate::scenario::Files;
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use vibrissa_runtime::units::suggest;
@@ -100,11 +101,51 @@ impl<'s> Reader<'s> {
         {
             return Some(value);
         }
-        let message = format!("`{name}` cannot be {}", written(&node.value));
-        let label = format!("must be a whole number from {} to {}", range.start(), range.end());
-        let fault = Diagnostic::error(fault::RANGE, message, self.extent(node), label);
-        self.report(fault.hint(format!("for example `{name}: {example}`")));
+        let place = self.extent(node);
+        let shown = self.as_written(node);
+        let fault = match &node.value {
+            Node::Text(text) if let Some(value) = in_range(text.trim().parse().ok(), &range) => {
+                let message = format!("`{name}` is a whole number, found a text");
+                Diagnostic::error(fault::TYPE, message, place, "a text, because it is in quotes or marked as one")
+                    .hint(format!("write it without: `{name}: {value}`"))
+            }
+            // YAML 1.1 and 1.2 read it differently.
+            Node::Float(float) if has_leading_zero(&shown) => {
+                let message = format!("`{name}` has a leading zero, which other programs take for an octal number");
+                let fault = Diagnostic::error(fault::RANGE, message, place, "must begin with another digit");
+                match in_range(whole(*float), &range) {
+                    Some(value) => fault.hint(format!("write `{name}: {value}`")),
+                    None => fault.hint(format!("for example `{name}: {example}`")),
+                }
+            }
+            Node::Float(float) if let Some(value) = in_range(whole(*float), &range) => {
+                let message = format!("`{name}` is a whole number, found one with a point or an exponent");
+                let label = format!("must be a whole number from {} to {}", range.start(), range.end());
+                Diagnostic::error(fault::RANGE, message, place, label).hint(format!("write `{name}: {value}`"))
+            }
+            _ => {
+                let message = format!("`{name}` cannot be {shown}");
+                let label = format!("must be a whole number from {} to {}", range.start(), range.end());
+                Diagnostic::error(fault::RANGE, message, place, label).hint(format!("for example `{name}: {example}`"))
+            }
+        };
+        self.report(fault);
         None
+    }
+
+    /// A value in a message, as [`written`], but a number or a truth value in the notation of the text.
+    fn as_written<'n>(&self, node: &'n Placed<Node>) -> Cow<'n, str>
+    where
+        's: 'n,
+    {
+        let text = self.source.slice(node.span).trim();
+        // At an alias, the text has only its name.
+        let is_verbatim = matches!(node.value, Node::Bool(_) | Node::Integer(_) | Node::Float(_));
+        if is_verbatim && !text.is_empty() && !text.starts_with(['*', '&', '!']) && !text.contains('\n') {
+            Cow::Borrowed(text)
+        } else {
+            Cow::Owned(written(&node.value))
+        }
     }
 
     /// The items of a list of any length.
@@ -150,7 +191,7 @@ impl<'s> Reader<'s> {
         let hint = match &node.value {
             Node::Null => "write a text, or leave the key out if it is optional".to_owned(),
             Node::List(_) | Node::Mapping(_) => "write a text on the line of its key".to_owned(),
-            scalar => format!("put it into quotes: \"{}\"", written(scalar)),
+            _ => format!("put it into quotes: \"{}\"", self.as_written(node)),
         };
         self.wrong_type(node, "a text", hint);
         None
@@ -223,6 +264,26 @@ fn unknown_choice(word: &Placed<String>, what: &str, words: &[&str]) -> Diagnost
         Some(meant) => fault.hint(format!("did you mean `{meant}`?")),
         None => fault.hint("write one of these"),
     }
+}
+
+/// An integer, if it is in the range.
+fn in_range<N: TryFrom<i128> + PartialOrd>(integer: Option<i128>, range: &RangeInclusive<N>) -> Option<N> {
+    N::try_from(integer?).ok().filter(|value| range.contains(value))
+}
+
+/// A number without a fraction as an integer.
+fn whole(number: f64) -> Option<i128> {
+    /// Beyond it, not every integer is a number.
+    const EXACT: f64 = 9e15;
+    #[expect(clippy::cast_possible_truncation, reason = "it is an integer within the exact ones")]
+    let integer = (number.fract() == 0.0 && number.abs() <= EXACT).then_some(number as i128);
+    integer
+}
+
+/// True for digits that begin with a zero, such as `017`.
+fn has_leading_zero(text: &str) -> bool {
+    let digits = text.trim_start_matches(['+', '-']);
+    digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 /// A value in a message: a scalar in YAML notation, a list or a mapping by its type.
