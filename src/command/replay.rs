@@ -1,7 +1,7 @@
 //! `vibrissa replay`
 
 #[cfg(feature = "recording")]
-use std::io::{BufReader, Cursor, Read};
+use std::io::{BufReader, Seek};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -169,19 +169,13 @@ fn recorded_trial(
     Ok(worlds.into_iter().find(|trial| trial.identity().hash.engine == identity("engine_hash")))
 }
 
-/// The first bytes of a file, among which is the record that identifies it.
-#[cfg(feature = "recording")]
-const BEGINNING: u64 = 1 << 16;
-
 /// Reads the recording of a simulated run. `None` if the file is no such recording.
 #[cfg(feature = "recording")]
 fn run_recording(path: &Path, files: &mut CommandFiles) -> Result<Option<RunRecording>, Failure> {
-    let mut beginning = Vec::new();
     let mut file = files.open(path).map_err(LoadError::read(path))?;
-    file.by_ref().take(BEGINNING).read_to_end(&mut beginning).map_err(LoadError::read(path))?;
-    if !RunRecording::is_in(&beginning) {
+    if !RunRecording::is_in(BufReader::new(&file)) {
         return Ok(None);
     }
-    let whole = Cursor::new(beginning).chain(BufReader::new(file));
-    RunRecording::read(whole).map(Some).map_err(Failure::run_recording(path))
+    file.rewind().map_err(LoadError::read(path))?;
+    RunRecording::read(BufReader::new(file)).map(Some).map_err(Failure::run_recording(path))
 }

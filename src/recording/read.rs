@@ -91,13 +91,17 @@ impl RunRecording {
         Ok(Self { setup, artifact, samples, ticks })
     }
 
-    /// True if a file that begins with these bytes is a recording of a simulated run. The record that identifies it is the first one
-    /// after the header of the file.
+    /// True if a file is a recording of a simulated run. The record that identifies it is the first one after the header of the file,
+    /// unless another program has written the file anew.
     #[must_use]
-    pub fn is_in(beginning: &[u8]) -> bool {
-        let mut records = Records::new(beginning, JsonChannel::of);
-        let is_run = |identity: &BTreeMap<String, String>| identity.get("kind").is_some_and(|kind| kind == KIND);
-        matches!(records.next_record(), Ok(Some(FileRecord::Identity(identity))) if is_run(&identity))
+    pub fn is_in(file: impl Read) -> bool {
+        let mut records = Records::new(file, |_| None::<JsonChannel>);
+        while let Ok(Some(record)) = records.next_record() {
+            if let FileRecord::Identity(identity) = record {
+                return identity.get("kind").is_some_and(|kind| kind == KIND);
+            }
+        }
+        false
     }
 
     /// The recorded policy with those of the files that it uses. `None` if a compiled machine was recorded.

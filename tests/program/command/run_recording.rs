@@ -1,6 +1,7 @@
 //! Recordings of simulated runs: `run --record` and `replay`.
 
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -154,4 +155,31 @@ fn one_run_is_recorded_at_a_time() {
     let output = with_paths(&["run", "scenarios/disk.yaml", "scenarios/box.yaml", "--record"], &[&file]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("give one scenario") && !file.exists(), "{}", stderr(&output));
+}
+
+#[test]
+fn a_recording_that_another_program_has_written_anew_replays_as_before() {
+    let (folder, _) = recorded("run-rewritten", "policies/bang.fsm");
+    let file = fs::read(folder.join("run.mcap")).unwrap();
+    let summary = mcap::Summary::read(&file).unwrap().unwrap();
+    for (name, compression) in [("plain", None), ("lz4", Some(mcap::Compression::Lz4))] {
+        // The metadata and the attachments are behind the messages.
+        let options = mcap::WriteOptions::new().compression(compression);
+        let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
+        for message in mcap::MessageStream::new(&file).unwrap() {
+            writer.write(&message.unwrap()).unwrap();
+        }
+        for index in &summary.attachment_indexes {
+            writer.attach(&mcap::read::attachment(&file, index).unwrap()).unwrap();
+        }
+        for index in &summary.metadata_indexes {
+            writer.write_metadata(&mcap::read::metadata(&file, index).unwrap()).unwrap();
+        }
+        writer.finish().unwrap();
+        let path = folder.join(name);
+        fs::write(&path, writer.into_inner().into_inner()).unwrap();
+        let [before, after] = [folder.join("run.mcap"), path].map(|path| with_paths(&["replay", "--json"], &[&path]));
+        assert_eq!(after.status.code(), Some(0), "{name}: {}", stderr(&after));
+        assert_eq!(stdout(&before), stdout(&after), "{name}");
+    }
 }

@@ -1,6 +1,6 @@
 //! One file of a recording.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::io::Read;
 
 use super::attachment::Attachment;
@@ -14,27 +14,26 @@ pub struct Part<R> {
     setup: Setup,
     items: Records<R, Channel>,
     identity: BTreeMap<String, String>,
-    /// The first message, which was read to find the end of the header.
-    first: Option<Message>,
+    /// The messages that were read before the header was complete. There is at least one, unless the file has none.
+    early: VecDeque<Message>,
 }
 
 impl<R: Read> Part<R> {
-    /// Reads the header of a file.
+    /// Reads the header of a file. It is before the messages, or behind them if another program has written the file anew.
     ///
     /// # Errors
     /// [`ReadError`] if it is no recording that this program can replay.
     pub fn open(input: R) -> Result<Self, ReadError> {
         let mut items = Records::new(input, Channel::of);
-        let (mut identity, mut attachments, mut first) = (None, HashMap::new(), None);
-        while first.is_none()
-            && let Some(item) = items.next_record()?
-        {
-            match item {
-                FileRecord::Identity(entries) => identity = Some(entries),
-                FileRecord::Attachment(Attachment { name, data }) => {
+        let (mut identity, mut attachments, mut early) = (None, HashMap::new(), VecDeque::new());
+        while early.is_empty() || !is_complete(identity.as_ref(), &attachments) {
+            match items.next_record()? {
+                None => break,
+                Some(FileRecord::Identity(entries)) => identity = Some(entries),
+                Some(FileRecord::Attachment(Attachment { name, data })) => {
                     attachments.insert(name, data);
                 }
-                FileRecord::Message(message) => first = Some(message),
+                Some(FileRecord::Message(message)) => early.push_back(message),
             }
         }
         let identity = match (identity, items.is_cut()) {
@@ -44,7 +43,7 @@ impl<R: Read> Part<R> {
         };
         check(&identity)?;
         let setup = read_setup(attachments, &identity)?;
-        Ok(Self { setup, items, identity, first })
+        Ok(Self { setup, items, identity, early })
     }
 
     /// The machine and the configuration.
@@ -64,7 +63,7 @@ impl<R: Read> Part<R> {
 
     /// The next message.
     pub(super) fn next_message(&mut self) -> Result<Option<Message>, ReadError> {
-        if let Some(message) = self.first.take() {
+        if let Some(message) = self.early.pop_front() {
             return Ok(Some(message));
         }
         while let Some(item) = self.items.next_record()? {
@@ -74,6 +73,15 @@ impl<R: Read> Part<R> {
         }
         Ok(None)
     }
+}
+
+/// True if the metadata and the attachments that they name have been read.
+fn is_complete(identity: Option<&BTreeMap<String, String>>, attachments: &HashMap<String, Vec<u8>>) -> bool {
+    let names = [setup::MACHINE, setup::CONFIGURATION, setup::CONFIGURATION_TEXT].map(|(name, _)| name);
+    let is_read = |identity: &BTreeMap<String, String>, name: &str| {
+        attachments.contains_key(name) || !identity.contains_key(&format!("{name}_sha256"))
+    };
+    identity.is_some_and(|identity| names.iter().all(|name| is_read(identity, name)))
 }
 
 /// Checks that this program can replay the recording.

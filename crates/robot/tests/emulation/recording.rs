@@ -1,6 +1,7 @@
 //! Recorded runs for tests.
 
 use std::collections::BTreeMap;
+use std::io::Cursor;
 
 use vibrissa_robot::drive::LoopRecord;
 use vibrissa_robot::emulation::Settings;
@@ -39,6 +40,24 @@ pub(crate) fn written(settings: &Settings, records: &[LoopRecord]) -> Vec<u8> {
         writer.take(record).unwrap();
     }
     writer.finish().unwrap()
+}
+
+/// The same recording as another program writes it: compressed otherwise, with its metadata and attachments behind the messages.
+pub(crate) fn rewritten(file: &[u8], compression: Option<mcap::Compression>) -> Vec<u8> {
+    let options = mcap::WriteOptions::new().compression(compression);
+    let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
+    for message in mcap::MessageStream::new(file).unwrap() {
+        writer.write(&message.unwrap()).unwrap();
+    }
+    let summary = mcap::Summary::read(file).unwrap().unwrap();
+    for index in summary.attachment_indexes.iter().rev() {
+        writer.attach(&mcap::read::attachment(file, index).unwrap()).unwrap();
+    }
+    for index in &summary.metadata_indexes {
+        writer.write_metadata(&mcap::read::metadata(file, index).unwrap()).unwrap();
+    }
+    writer.finish().unwrap();
+    writer.into_inner().into_inner()
 }
 
 /// The replay of a recording in one file.

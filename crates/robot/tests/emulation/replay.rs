@@ -8,7 +8,7 @@ use vibrissa_robot::recording::{ReadError, Recording, first_stop, keep};
 use vibrissa_runtime::signal::Command;
 
 use super::campaign::schedule;
-use super::recording::{records, replayed, written};
+use super::recording::{records, replayed, rewritten, written};
 use super::robot::{MS, robot};
 
 /// The bits of a command.
@@ -141,4 +141,28 @@ fn a_run_without_a_stop_has_no_first_stop() {
     let settings = Settings::default();
     let file = written(&settings, &records(&settings, 2000));
     assert_eq!(first_stop(Recording::open(file.as_slice()).unwrap()).unwrap(), None);
+}
+
+#[test]
+fn a_recording_that_another_program_has_written_anew_replays_as_before() {
+    let settings = Settings::default();
+    let file = written(&settings, &records(&settings, 2000));
+    let before = replayed(&file).unwrap();
+    assert_eq!(before.difference, None);
+    for compression in [None, Some(mcap::Compression::Lz4), Some(mcap::Compression::Zstd)] {
+        let again = rewritten(&file, compression);
+        let after = replayed(&again).unwrap();
+        assert_eq!(
+            (after.difference, after.steps, after.end_ns),
+            (None, before.steps, before.end_ns),
+            "{compression:?}"
+        );
+        assert_eq!(
+            Recording::open(again.as_slice()).unwrap().identity(),
+            Recording::open(file.as_slice()).unwrap().identity()
+        );
+        // Without its end it has no metadata.
+        let cut = replayed(&again[..again.len() / 2]).unwrap_err();
+        assert!(matches!(cut, ReadError::Empty), "{cut}");
+    }
 }
