@@ -83,17 +83,17 @@ impl ArrayCalibrations {
         let key = key(scene, mismatch, world, seed, &limits);
         let slot = Arc::clone(locked(&self.made).entry(key).or_default());
         let mut slot = locked(&slot);
-        let made = match slot.take().or_else(|| self.kept(&key, scene.rig.whiskers.len())) {
-            Some(made) => made,
-            None => {
-                let whiskers = match ArrayCalibration::run(scene, world, seed, &limits)?.calibrations() {
-                    Ok(whiskers) => Ok(whiskers),
-                    Err(ArrayCalibrationError::Refused(refused)) => Err(refused),
-                    Err(other) => return Err(other),
-                };
-                self.keep(&key, &whiskers);
-                Made { whiskers, cached: false }
-            }
+        let kept = slot.take().or_else(|| self.kept(&key, scene.rig.whiskers.len()));
+        let made = if let Some(kept) = kept {
+            kept
+        } else {
+            let whiskers = match ArrayCalibration::run(scene, world, seed, &limits)?.calibrations() {
+                Ok(whiskers) => Ok(whiskers),
+                Err(ArrayCalibrationError::Refused(refused)) => Err(refused),
+                Err(other) => return Err(other),
+            };
+            self.keep(&key, &whiskers);
+            Made { whiskers, cached: false }
         };
         *slot = Some(made.clone());
         drop(slot);

@@ -26,9 +26,10 @@ use crate::emulated;
 use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
-use crate::load::{self, GivenMismatch, LoadError, Loaded, check_noise_seed};
+use crate::load::{self, GivenMismatch, Loaded};
 use crate::report::{faults_table, results_table};
 use crate::results::DriveResult;
+use crate::scene::Scene;
 use crate::trial::{Inputs, Trial};
 
 const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nOn the robot:\n  vibrissa drive thesis.machine --config /etc/vibrissa/array.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed, or a fault stopped the robot; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -112,6 +113,19 @@ fn become_robot(_: &DriveArguments) -> std::io::Error {
     std::io::ErrorKind::Unsupported.into()
 }
 
+/// The configuration of the rig of a scene, whose array is calibrated first.
+fn emulated_config(
+    arguments: &DriveArguments,
+    scene: &mut Scene,
+    scenario: &Path,
+    settings: &EmulationSettings,
+) -> Result<Config, Failure> {
+    let array = GivenMismatch::read(None, None, &mut CommandFiles::new())?.uncalibrated(arguments.uncalibrated);
+    let world = arguments.world.of(scene);
+    array.calibrate_scene(scene, world).map_err(Failure::calibration(scenario))?;
+    Ok(Config::emulated(scene.rig.clone(), settings.noise_microtesla))
+}
+
 fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure> {
     let before = Instant::now();
     let mut files = CommandFiles::new();
@@ -128,21 +142,13 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         noise_microtesla: arguments.sensor_noise,
         injections,
     };
-    if settings.noise_microtesla == 0.0 {
-        check_noise_seed(arguments.seed, std::iter::once(&scene)).map_err(LoadError::from)?;
-    }
     let (config, config_text) = match &arguments.config {
         Some(path) => {
             let (config, text) = config(path, &mut files)?;
             scene.rig = config.rig.clone();
             (config, Some(text))
         }
-        None => {
-            let array = GivenMismatch::read(None, None, &mut files)?.uncalibrated(arguments.uncalibrated);
-            let world = arguments.world.of(&scene);
-            array.calibrate_scene(&mut scene, world).map_err(Failure::calibration(scenario))?;
-            (Config::emulated(scene.rig.clone(), settings.noise_microtesla), None)
-        }
+        None => (emulated_config(arguments, &mut scene, scenario, &settings)?, None),
     };
     #[cfg(feature = "live")]
     let text = policy.value.text.map(|text| text.source);

@@ -114,7 +114,9 @@ pub(super) fn calibrations<'c>(calibrations: impl Iterator<Item = &'c Calibratio
         }
     }
     if different.len() <= CALIBRATIONS_SHOWN {
-        different.iter().for_each(|calibration| message(format_args!("the array is {calibration}")));
+        for calibration in different {
+            message(format_args!("the array is {calibration}"));
+        }
     } else {
         let cached = different.iter().filter(|calibration| calibration.cached).count();
         message(format_args!("the runs have {} calibrations, {cached} of them cached", different.len()));
