@@ -27,7 +27,7 @@ use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
 use crate::load::{self, GivenMismatch, Loaded};
-use crate::report::{faults_table, results_table};
+use crate::report::{Table, faults_table, results_table};
 use crate::results::DriveResult;
 use crate::scene::Scene;
 use crate::trial::{Inputs, Trial};
@@ -212,20 +212,18 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         report.write(&provenance, &trial, &emulated.result, &document)?;
     }
     let result = DriveResult::new(document, &emulated.events, emulated.begun_ns, emulated.missed);
-    if result.faults.is_empty() {
-        output::document(arguments.format, &provenance, &result, || {
-            [results_table(std::slice::from_ref(&result.run))]
-        })?;
-    } else {
-        output::document(arguments.format, &provenance, &result, || {
-            [results_table(std::slice::from_ref(&result.run)), faults_table(&result.faults)]
-        })?;
-    }
+    output::document(arguments.format, &provenance, &result, || tables(&result))?;
     #[cfg(feature = "live")]
     if let Some(live) = live {
         serve_on(&live);
     }
     Ok(exit)
+}
+
+/// The figures of the run, and its faults if there are any.
+fn tables(result: &DriveResult) -> Vec<Table> {
+    let faults = (!result.faults.is_empty()).then(|| faults_table(&result.faults));
+    std::iter::once(results_table(std::slice::from_ref(&result.run))).chain(faults).collect()
 }
 
 /// Reads a configuration. The result has its text too.

@@ -119,7 +119,9 @@ fn of_families(runs: &[FamilyRun], arguments: &FamiliesArguments) -> Provenance 
         Some(trial) => format!("trial {trial}"),
         None => format!("trials 0 to {}", arguments.count.saturating_sub(1)),
     };
-    runs.iter().for_each(|run| provenance.add_scene(&format!("{}, {trials}", run.family)));
+    for run in runs {
+        provenance.add_scene(&format!("{}, {trials}", run.family));
+    }
     provenance.seeds = vec![SeedRange { first: arguments.seed, last: arguments.seed }];
     provenance
 }

@@ -83,7 +83,7 @@ fn command(arguments: impl Iterator<Item = OsString>) -> String {
         };
         is_secret = hidden.is_some_and(|name| name.len() == argument.len());
         // No argument of a process has a null character.
-        words.push(shlex::try_quote(&word).map_or_else(|_| word.clone(), |quoted| quoted.into_owned()));
+        words.push(shlex::try_quote(&word).map_or_else(|_| word.clone(), std::borrow::Cow::into_owned));
     }
     words.join(" ")
 }

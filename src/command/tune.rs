@@ -11,7 +11,6 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Jobs, Settings, WorldOptions};
 use super::output;
-use super::provenance::of_trials;
 use super::trials::make_directory;
 use super::tune_runs::{TuningRuns, TuningWork};
 use super::values::{parse_runs, parse_seed};
@@ -20,7 +19,6 @@ use crate::file::CommandFiles;
 use crate::load;
 use crate::policy::with_defaults;
 use crate::report::tuning_tables;
-use crate::results::add_seed;
 use crate::trial::{engine_version, short_hash};
 use crate::tune::{
     Axis, Candidate, Evolution, Objective, Term, TunedFigures, TunedParameter, TunedRun, TunedValues, Tuning,
@@ -114,12 +112,7 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
         array: &array,
         jobs: &arguments.jobs,
     };
-    let trials = training
-        .iter()
-        .chain(&held_out)
-        .map(|scene| Ok(scene.trial(&given, &axes, &program, work.speed, |scene| arguments.world.of(scene))?));
-    let mut provenance = of_trials(&trials.collect::<Result<Vec<_>, Failure>>()?);
-    add_seed(&mut provenance.seeds, arguments.seed);
+    let provenance = work.provenance(&given, training.iter().chain(&held_out), arguments.seed)?;
     let mut runs = TuningRuns::open(path, &header, &provenance, work)?;
     let references: Vec<&Candidate> = if given == default { vec![&given] } else { vec![&default, &given] };
     runs.expect(plan.runs(training.len()) + (references.len() + 1) * held_out.len());

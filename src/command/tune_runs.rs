@@ -11,11 +11,12 @@ use super::failure::Failure;
 use super::options::{Jobs, WorldOptions};
 use super::output;
 use super::progress::{Kept, Progress};
+use super::provenance::of_trials;
 use super::trials::calibrated;
 use crate::load::GivenMismatch;
-use crate::results::Provenance;
+use crate::results::{Provenance, add_seed};
 use crate::sweep::Results;
-use crate::trial::stream_in_parallel;
+use crate::trial::{Trial, stream_in_parallel};
 use crate::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
 
 /// All that the runs of a tuning have in common.
@@ -38,13 +39,31 @@ pub(super) struct TuningWork<'a> {
 }
 
 impl TuningWork<'_> {
-    fn run(&self, candidate: &Candidate, scene: &TuningScene) -> Result<TunedRun, Failure> {
+    /// The trial of a candidate, with the calibration of its array.
+    fn trial(&self, candidate: &Candidate, scene: &TuningScene) -> Result<Trial, Failure> {
         let mut trial = scene.trial(candidate, self.axes, self.program, self.speed, |scene| self.world.of(scene))?;
         let name = Path::new(&scene.name);
         let applied = self.array.apply(&mut trial.scene, &mut Sha256::default(), scene.number());
         applied.map_err(Failure::mismatch(name))?;
         trial.assumed_rig = trial.scene.assumed_rig();
-        let trial = calibrated(&trial, self.array)?;
+        calibrated(&trial, self.array)
+    }
+
+    /// The origin of the results of a tuning.
+    pub(super) fn provenance<'s>(
+        &self,
+        candidate: &Candidate,
+        scenes: impl Iterator<Item = &'s TuningScene>,
+        seed: u64,
+    ) -> Result<Provenance, Failure> {
+        let trials = scenes.map(|scene| self.trial(candidate, scene)).collect::<Result<Vec<_>, _>>()?;
+        let mut provenance = of_trials(&trials);
+        add_seed(&mut provenance.seeds, seed);
+        Ok(provenance)
+    }
+
+    fn run(&self, candidate: &Candidate, scene: &TuningScene) -> Result<TunedRun, Failure> {
+        let trial = self.trial(candidate, scene)?;
         let result = trial.run().map_err(|cause| Failure::Execute { scenario: scene.name.clone().into(), cause })?;
         Ok(TunedRun::new(self.objective, &result))
     }

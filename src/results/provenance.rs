@@ -101,16 +101,12 @@ impl Provenance {
         add_seed(&mut self.seeds, seed);
         self.calibrations.extend(calibration.filter(|kind| !self.calibrations.contains(kind)));
         let Some((mismatch, seed)) = mismatch else { return };
-        let is_same = |known: &MismatchRecord| known.file == mismatch.file;
-        let known = match self.mismatches.iter().position(is_same) {
-            Some(index) => &mut self.mismatches[index],
-            None => {
-                self.mismatches.push(mismatch);
-                let last = self.mismatches.len() - 1;
-                &mut self.mismatches[last]
-            }
-        };
-        add_seed(&mut known.seeds, seed);
+        if self.mismatches.iter().all(|known| known.file != mismatch.file) {
+            self.mismatches.push(mismatch.clone());
+        }
+        for known in self.mismatches.iter_mut().filter(|known| known.file == mismatch.file) {
+            add_seed(&mut known.seeds, seed);
+        }
     }
 
     /// Adds a scene, unless it is there.

@@ -92,27 +92,29 @@ impl SweepSummary {
 
 /// The curves of all axes with several values, by axis and then by policy.
 fn curves(sweep: &Sweep, runs: &BTreeMap<u64, Figures>) -> Vec<SweepCurve> {
+    let mut figures_of: BTreeMap<(String, usize, String), Vec<Figures>> = BTreeMap::new();
     // The values of an axis are in the order of their first runs, which is that of the sweep.
-    let mut curves: Vec<(String, String, Vec<(String, Vec<Figures>)>)> = Vec::new();
+    let mut values: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let known = runs.iter().filter_map(|(&index, &figures)| Some((sweep.run(index)?, figures)));
     for (run, figures) in known {
         for (axis, value) in run.settings() {
-            let policy = &run.policy().name;
-            let place = curves.iter().position(|curve| curve.0 == axis && curve.1 == *policy).unwrap_or_else(|| {
-                curves.push((axis.to_owned(), policy.clone(), Vec::new()));
-                curves.len() - 1
-            });
-            let points = &mut curves[place].2;
-            match points.iter_mut().find(|(known, _)| *known == value) {
-                Some((_, all)) => all.push(figures),
-                None => points.push((value, vec![figures])),
+            let of_axis = values.entry(axis.to_owned()).or_default();
+            if !of_axis.contains(&value) {
+                of_axis.push(value.clone());
             }
+            figures_of.entry((axis.to_owned(), run.policy, value)).or_default().push(figures);
         }
     }
-    curves.sort_by(|a, b| a.0.cmp(&b.0));
-    let curve = |(axis, policy, points): (String, String, Vec<(String, Vec<Figures>)>)| {
-        let points = points.into_iter().map(|(value, runs)| SweepPoint { value, tally: Tally::new(runs) }).collect();
-        SweepCurve { axis, policy, points }
-    };
-    curves.into_iter().filter(|(.., points)| points.len() > 1).map(curve).collect()
+    let mut curves = Vec::new();
+    for (axis, values) in values.into_iter().filter(|(_, values)| values.len() > 1) {
+        for (index, policy) in sweep.policies().iter().enumerate() {
+            let point = |value: &String| {
+                let runs = figures_of.remove(&(axis.clone(), index, value.clone()))?;
+                Some(SweepPoint { value: value.clone(), tally: Tally::new(runs) })
+            };
+            let points = values.iter().filter_map(point).collect();
+            curves.push(SweepCurve { axis: axis.clone(), policy: policy.name.clone(), points });
+        }
+    }
+    curves
 }

@@ -179,6 +179,9 @@ fn curves(curves: &[SweepCurve]) -> Markup {
     }
 }
 
+/// A figure and its interval.
+type WithInterval = (f64, Option<[f64; 2]>);
+
 /// The pictures of the pass rate and of the mean error over an axis.
 fn pictures_of(axis: &str, curves: &[SweepCurve]) -> [Option<String>; 2] {
     let of_axis: Vec<&SweepCurve> = curves.iter().filter(|curve| curve.axis == axis).collect();
@@ -193,7 +196,7 @@ fn pictures_of(axis: &str, curves: &[SweepCurve]) -> [Option<String>; 2] {
     let places = numbers.unwrap_or_else(|| (0..values.len()).map(|index| index as f64).collect());
     let scale =
         Axis { name: axis.to_owned(), values: values.iter().map(|&value| value.to_owned()).zip(places).collect() };
-    let drawn = |of: fn(&Tally) -> Option<(f64, Option<[f64; 2]>)>| -> Vec<Curve> {
+    let drawn = |of: fn(&Tally) -> Option<WithInterval>| -> Vec<Curve> {
         let curve = |curve: &&SweepCurve| {
             let point = |point: &SweepPoint| {
                 let (figure, interval) = of(&point.tally)?;
