@@ -43,8 +43,7 @@ fn refusal(broker: &Mosquitto, user: Option<&str>, password: &str, ca: Option<&s
     let publisher = Publisher::start("test", &config, move |line| own.lock().unwrap().push(line.to_owned())).unwrap();
     publisher.push(Message { topic: "vibrissa/test/health".into(), payload: b"{}".to_vec(), is_retained: false });
     wait_until("news of the connection", || publisher.counts().0 == 0 || !lines.lock().unwrap().is_empty());
-    let first = lines.lock().unwrap().first().cloned();
-    first
+    lines.lock().unwrap().first().cloned()
 }
 
 #[test]
