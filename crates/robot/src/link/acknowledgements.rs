@@ -63,7 +63,9 @@ mod tests {
         let step = |sequence| {
             let now_ns = 10 * sequence;
             acknowledgements.sent(sequence, now_ns);
-            answers(sequence).into_iter().for_each(|answer| acknowledgements.received(answer));
+            for answer in answers(sequence) {
+                acknowledgements.received(answer);
+            }
             now_ns - acknowledgements.last_ns(now_ns)
         };
         (1..=steps).map(step).collect()

@@ -1,5 +1,7 @@
 //! The poses that the loop takes.
 
+use std::sync::atomic::Ordering;
+
 use vibrissa_runtime::geometry::{Pose, Vector2};
 
 use super::order::{Order, Place};
@@ -52,7 +54,9 @@ impl PoseGate {
             Place::Next => {}
         }
         let pose = packet.pose;
-        if is_plausible_pose(&pose)
+        // Before the run, nothing depends on the last pose, and it may be wrong.
+        if vitals.is_running.load(Ordering::Acquire)
+            && is_plausible_pose(&pose)
             && self.last.is_some_and(|(last, at_ns)| !self.reach.has(&last, &pose, now_ns.saturating_sub(at_ns)))
         {
             vitals.pose_jumped();
@@ -82,8 +86,6 @@ impl Reach {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-    use std::sync::atomic::Ordering;
-
     use super::*;
     use proptest::prelude::*;
     use vibrissa_runtime::geometry::Point2;
@@ -105,6 +107,7 @@ mod tests {
     /// The times (ms) at which poses are taken, and the jumps, if a packet arrives every 20 ms.
     fn taken(poses: impl IntoIterator<Item = Pose>) -> (Vec<u64>, u64) {
         let (mut gate, vitals) = (gate(), Vitals::default());
+        vitals.is_running.store(true, Ordering::Release);
         let take = |(index, pose): (u64, Pose)| {
             let packet = PosePacket { sequence: index + 1, pose };
             gate.take(&packet, 20 * MS * index, &vitals).map(|_| 20 * index)
@@ -126,6 +129,17 @@ mod tests {
             let (times, _) = taken([pose(0.0, 0.0, 0.0), pose(0.0, 0.0, heading), pose(0.0, 0.0, 0.0)]);
             assert_eq!(times, [0, 40], "{heading}");
         }
+    }
+
+    #[test]
+    fn a_wrong_first_pose_does_not_matter_if_the_run_has_not_begun() {
+        let (mut gate, vitals) = (gate(), Vitals::default());
+        let mut take = |sequence: u64, x: f64| {
+            gate.take(&PosePacket { sequence, pose: pose(x, 0.0, 0.0) }, 20 * MS * sequence, &vitals).is_some()
+        };
+        assert!(take(1, 50.0) && take(2, 0.0));
+        vitals.is_running.store(true, Ordering::Release);
+        assert!(!take(3, 50.0) && take(4, 0.0));
     }
 
     #[test]

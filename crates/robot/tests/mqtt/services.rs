@@ -127,6 +127,7 @@ fn commands_that_are_repeated_or_grow_old_stop_the_platform_and_young_ones_in_or
     let second = Sending::start(broker.address, |index, now_ms| (1 + index, now_ms));
     robot.wait_for(moves);
     drop(second);
+    stands_still();
     // Packets that are older each time.
     let _late = Sending::start(broker.address, |index, now_ms| (1 + index, now_ms * 9 / 10));
     robot.wait_for(moves);

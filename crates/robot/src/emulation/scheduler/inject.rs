@@ -8,6 +8,9 @@ use super::Emulation;
 use crate::emulation::injection::{Injection, InjectionKind};
 use crate::emulation::plant::Plant;
 
+/// Bits of a status byte that give a sensor in burst mode two other modes, which is impossible.
+const TWO_MODES: u8 = 0x60;
+
 /// Number of faults of each kind that are present now.
 #[derive(Debug, Default)]
 pub(in super::super) struct Present([usize; InjectionKind::ALL.len()]);
@@ -54,12 +57,11 @@ impl<P: Plant> Emulation<P> {
         match injection.kind {
             InjectionKind::StaleSensor => self.sensor_fault(part, begins, SensorFault::ClockStopped),
             InjectionKind::BrownOut if begins => self.sensor_fault(part, true, SensorFault::BrownOut),
-            InjectionKind::BrownOut => {}
             InjectionKind::NoAcknowledge => {
                 self.sensor_fault(part, begins, SensorFault::NoAcknowledge { transactions: None });
             }
             InjectionKind::GarbledBytes => {
-                self.sensor_fault(part, begins, SensorFault::BitFlip { byte: 0, mask: 0x0C, answers: u32::MAX });
+                self.sensor_fault(part, begins, SensorFault::BitFlip { byte: 0, mask: TWO_MODES, answers: u32::MAX });
             }
             InjectionKind::SaturatedField => {
                 self.sensor_fault(part, begins, SensorFault::Saturated { negative: false });
@@ -79,8 +81,9 @@ impl<P: Plant> Emulation<P> {
                 self.vitals.is_broker_gone.store(self.present.has(InjectionKind::NoBroker), Ordering::Release);
             }
             InjectionKind::LocalisationRestarts if begins => self.links.restart_localisation(),
-            // The links and the scheduler look whether these are present.
-            InjectionKind::LocalisationRestarts
+            // Some happen at their begin only. The links and the scheduler look whether the others are present.
+            InjectionKind::BrownOut
+            | InjectionKind::LocalisationRestarts
             | InjectionKind::NoPose
             | InjectionKind::PoseNotANumber
             | InjectionKind::DisplacedPose
