@@ -135,7 +135,8 @@ fn a_drawing_is_fitted_into_its_frame_and_a_unit_has_any_case() {
         let text = format!("<svg {frame} viewBox='0 0 200 100'><rect width='10' height='10'/></svg>");
         let outlines = read(text.as_bytes(), Format::Svg, &ReadOptions::default()).unwrap();
         let size = outlines[0].bounding_box();
-        [size.max.x - size.min.x, size.max.y - size.min.y].map(|length| (length * 1e9).round() / 1e6)
+        let lengths = [size.max.x - size.min.x, size.max.y - size.min.y];
+        lengths.iter().map(|length| (length * 1e9).round() / 1e6).collect::<Vec<f64>>()
     };
     assert_eq!(bounds("width='100mm' height='60mm'"), [5.0, 5.0]);
     assert_eq!(bounds("width='200mm' height='60mm' preserveAspectRatio='xMinYMax meet'"), [6.0, 6.0]);
