@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::machine::{Machine, Observer, OnlySimulated, Program, Tick};
+use crate::math;
 use crate::motion::{ServoLead, Steering};
 use crate::percept::{Perception, PerceptionError};
 use crate::rig::{Rig, UnknownWhisker};
@@ -21,6 +22,10 @@ pub enum BindError {
     #[error(transparent)]
     OnlySimulated(#[from] OnlySimulated),
 }
+
+/// Time (s) over which base angles and the pose are kept in ticks without a valid one, unless
+/// [`Control::keep_for`] changes it. It bridges single ticks, and the time that a supervisor needs to notice a fault.
+const KEPT_FOR: f64 = 0.1;
 
 /// The control loop of one rig under one policy. It contains everything that runs at the control rate.
 #[derive(Debug, Clone)]
@@ -48,13 +53,21 @@ impl Control {
     /// [`BindError`] if the rig lacks something that the policy needs.
     pub fn simulated(rig: &Rig, program: Arc<Program>) -> Result<Self, BindError> {
         let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
+        let mut perception = Perception::new(rig, &whiskers, &program.contact_estimators)?
+            .with_contours(program.keypoints, &program.contours);
+        perception.keep_for(KEPT_FOR);
         Ok(Self {
-            perception: Perception::new(rig, &whiskers, &program.contact_estimators)?
-                .with_contours(program.keypoints, &program.contours),
+            perception,
             steering: Steering::new(rig, &whiskers),
             servo_lead: ServoLead::new(rig),
             machine: Machine::new(program),
         })
+    }
+
+    /// Keeps base angles and the pose over ticks without a valid one for this time (s), if it is longer than 0.1 s. After it
+    /// they are NaN, so that the fallback transition of the policy acts.
+    pub fn keep_for(&mut self, time: f64) {
+        self.perception.keep_for(math::max(KEPT_FOR, time));
     }
 
     /// Executes one tick and returns the command until the next tick, and the output of the machine.

@@ -268,3 +268,70 @@ proptest! {
         prop_assert!((control.perception().base_angle(0) + 3e-4).abs() < 1e-9);
     }
 }
+
+/// A policy whose commands need the base angle, the tip and the pose.
+const NEEDY: &str = "machine m whisker r0 by one_channel initial Going failsafe -> Waiting
+    state Going { steer body along direction(body.yaw) + unit(r0.tip - body.position) at 0.1 mm/s / 1 urad * |r0.deflection| turning 0 deg/s }
+    state Waiting { stop }";
+
+/// The states of [`NEEDY`] after every tick, under these samples.
+fn states(samples: &[Sample]) -> Vec<usize> {
+    let mut control = Control::new(&Rig::default(), Arc::new(crate::common::program(NEEDY))).unwrap();
+    let mut tick = |tick: &[Sample]| {
+        let (command, _) = control.tick(tick);
+        assert!(command.is_finite() && control.machine().failure().is_none());
+        control.machine().state()
+    };
+    samples.chunks(PER_TICK).map(&mut tick).collect()
+}
+
+#[test]
+fn a_machine_keeps_its_values_over_a_short_gap_and_takes_its_fallback_in_a_long_one() {
+    for spoil in [
+        (|sample: &mut Sample| sample.whiskers[0].base_angle = f64::NAN) as fn(&mut Sample),
+        |sample| sample.body = Pose::UNKNOWN,
+        |sample| (sample.body, sample.whiskers[0].base_angle) = (Pose::UNKNOWN, f64::INFINITY),
+    ] {
+        let mut all = samples(&[3e-4; 60 * PER_TICK]);
+        all[20 * PER_TICK..22 * PER_TICK].iter_mut().for_each(spoil);
+        all[40 * PER_TICK..].iter_mut().for_each(spoil);
+        let states = states(&all);
+        assert!(states[..42].iter().all(|&state| state == 0), "{states:?}");
+        assert!(states[44..].iter().all(|&state| state == 1), "{states:?}");
+    }
+}
+
+#[test]
+fn without_any_sample_values_are_not_kept_for_ever() {
+    let mut control = Control::new(&Rig::default(), Arc::new(crate::common::program(NEEDY))).unwrap();
+    for tick in samples(&[3e-4; 10 * PER_TICK]).chunks(PER_TICK) {
+        control.tick(tick);
+    }
+    let states: Vec<usize> = (0..6)
+        .map(|_| {
+            control.tick(&[]);
+            control.machine().state()
+        })
+        .collect();
+    assert!(states[..2] == [0, 0] && states[4..] == [1, 1], "{states:?}");
+}
+
+#[test]
+fn a_kept_value_records_no_tip_and_a_machine_without_readings_from_the_start_has_none() {
+    let text = "machine m whisker r0 by one_channel initial Going state Going { record r0 stop }";
+    let program = Arc::new(crate::common::program(text));
+    let mut control = Control::new(&Rig::default(), Arc::clone(&program)).unwrap();
+    let mut all = samples(&[3e-4; 33 * PER_TICK]);
+    all[31 * PER_TICK..].iter_mut().for_each(|sample| sample.whiskers[0].base_angle = f64::NAN);
+    for (index, tick) in all.chunks(PER_TICK).enumerate() {
+        control.tick(tick);
+        let perception = control.perception();
+        assert!(perception.base_angle(0).is_finite(), "tick {index}");
+        if index > 25 {
+            assert_eq!(perception.recorded_tip(0).is_some(), index < 31, "tick {index}");
+        }
+    }
+    let mut control = Control::new(&Rig::default(), program).unwrap();
+    control.tick(&samples(&[f64::NAN; PER_TICK]));
+    assert!(control.perception().base_angle(0).is_nan());
+}

@@ -18,12 +18,24 @@ pub(super) struct FilteredBaseAngle {
     had_reading: bool,
     /// Filtered base angle (rad).
     value: f64,
+    /// Time (s) since the last tick with a valid reading. It is infinite before the first one.
+    silent_for: f64,
+    /// Time (s) without a valid reading over which the value is kept.
+    kept_for: f64,
 }
 
 impl FilteredBaseAngle {
     /// Creates the filtered base angle, initially 0.
     pub(super) fn new(filter: LowPass) -> Self {
-        Self { filter, reading: 0.0, has_reading: true, had_reading: true, value: 0.0 }
+        Self {
+            filter,
+            reading: 0.0,
+            has_reading: true,
+            had_reading: true,
+            value: 0.0,
+            silent_for: f64::INFINITY,
+            kept_for: 0.0,
+        }
     }
 
     /// Begins a tick. Its readings follow.
@@ -45,8 +57,24 @@ impl FilteredBaseAngle {
         self.value = self.filter.next(self.reading);
     }
 
-    /// The filtered base angle (rad), or NaN if the tick has no valid reading.
+    /// Keeps the value over ticks without a valid reading, for at most this time (s).
+    pub(super) fn keep_for(&mut self, time: f64) {
+        self.kept_for = time;
+    }
+
+    /// Ends a tick of this `period` (s), after its readings.
+    pub(super) fn end(&mut self, period: f64) {
+        self.silent_for = if self.has_reading { 0.0 } else { self.silent_for + period };
+    }
+
+    /// True if the tick has a valid reading.
+    pub(super) fn has_reading(&self) -> bool {
+        self.has_reading
+    }
+
+    /// The filtered base angle (rad). In a tick without a valid reading it is the last one, and NaN once it is too old.
     pub(super) fn value(&self) -> f64 {
-        if self.has_reading { self.value } else { f64::NAN }
+        let is_kept = self.kept_for > 0.0 && self.silent_for <= self.kept_for;
+        if self.has_reading || is_kept { self.value } else { f64::NAN }
     }
 }

@@ -66,6 +66,12 @@ pub struct Perception {
     motions: Option<Box<Motions>>,
     /// Pose by the newest sample, or unknown.
     measured: Pose,
+    /// Time (s) since the last tick with a pose. It is infinite before the first one.
+    pose_silent_for: f64,
+    /// Time (s) over which values are kept in ticks without a valid sample.
+    kept_for: f64,
+    /// Period of a tick (s) according to the rig.
+    tick: f64,
     /// Time constant of the servos (s) according to the rig.
     servo: f64,
 }
@@ -191,6 +197,9 @@ impl Perception {
             motions: (sensing.estimation.delay || sensing.estimation.pose_noise).then(|| Box::new(Motions::new(rig))),
             acceleration: MeasuredAcceleration::new(),
             measured: Pose::default(),
+            pose_silent_for: f64::INFINITY,
+            kept_for: 0.0,
+            tick: sensing.control_rate.recip(),
             servo: rig.platform.servo,
             offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
         })
@@ -207,6 +216,15 @@ impl Perception {
         self
     }
 
+    /// Keeps base angles and the pose over ticks without a valid one, for at most this time (s). Otherwise they are NaN in
+    /// every such tick. A tick with a kept value has no contact, so it records no tip.
+    pub fn keep_for(&mut self, time: f64) {
+        self.kept_for = time;
+        for whisker in &mut self.whiskers {
+            whisker.keep_for(time);
+        }
+    }
+
     /// Replaces the contact estimator of a whisker, by its index in the policy. It allows an estimator that no
     /// [`ContactEstimatorKind`] names. Replace estimators before the first [`update`](Self::update).
     ///
@@ -220,7 +238,7 @@ impl Perception {
     ///
     /// Non-finite values and base angles beyond half a rotation are ignored. The newest valid value counts. A value
     /// without any valid sample in the tick is NaN: base angle and tip of a whisker, or the pose and everything that
-    /// depends on it. The time keeps its last value.
+    /// depends on it. With [`keep_for`](Self::keep_for) it has its last value for some time. The time keeps its last value.
     pub fn update(&mut self, samples: &[Sample]) {
         for index in 0..self.loops.len() {
             let tip_world = self.recorded_tip(index);
@@ -239,6 +257,7 @@ impl Perception {
         {
             motions.begin(period);
         }
+        let (last_body, last_at_effect) = (self.body, self.at_effect);
         (self.body, self.measured) = (Pose::UNKNOWN, Pose::UNKNOWN);
         for sample in samples {
             let ago = math::max(self.time - sample.time, 0.0);
@@ -256,8 +275,16 @@ impl Perception {
         }
         let pose_deviation = self.motions.as_deref().map(Motions::pose_deviation).unwrap_or_default();
         self.at_effect = self.motions.as_ref().map_or(self.body, |motions| motions.at_effect(self.measured));
+        let is_measured = self.measured.is_finite();
+        // Without any sample the time stands still, but values must not be kept for ever.
+        let waited = math::max(period, self.tick);
+        self.pose_silent_for = if is_measured { 0.0 } else { self.pose_silent_for + waited };
+        if !is_measured && self.kept_for > 0.0 && self.pose_silent_for <= self.kept_for {
+            (self.body, self.at_effect) = (last_body, last_at_effect);
+        }
         for whisker in &mut self.whiskers {
-            whisker.update(self.body, self.at_effect, pose_deviation);
+            whisker.end(waited);
+            whisker.update(self.body, self.at_effect, is_measured, pose_deviation);
         }
         for contour in &mut self.contours {
             contour.begin();

@@ -121,7 +121,12 @@ impl PerceivedWhisker {
         self.estimator = estimator;
     }
 
-    /// Filtered base angle (rad), or NaN if the tick has no valid reading.
+    /// Keeps the base angle over ticks without a valid reading, for at most this time (s).
+    pub(super) fn keep_for(&mut self, time: f64) {
+        self.base_angle.keep_for(time);
+    }
+
+    /// Filtered base angle (rad), or NaN if there is no valid reading.
     pub(super) fn base_angle(&self) -> f64 {
         self.base_angle.value()
     }
@@ -189,14 +194,20 @@ impl PerceivedWhisker {
         Pose { position, heading: body.heading + self.direction_body }
     }
 
+    /// Ends a tick of this `period` (s), after its readings.
+    pub(super) fn end(&mut self, period: f64) {
+        self.base_angle.end(period);
+    }
+
     /// Updates pose and contact of the whisker, with the platform at `body` and these errors of poses. The platform is at
-    /// `at_effect` when the next command takes effect.
-    pub(super) fn update(&mut self, body: Pose, at_effect: Pose, pose_deviation: PoseDeviation) {
+    /// `at_effect` when the next command takes effect. A tick without a valid reading, or without a measured pose, has no
+    /// contact.
+    pub(super) fn update(&mut self, body: Pose, at_effect: Pose, is_measured: bool, pose_deviation: PoseDeviation) {
         let base = self.base(body);
         self.base_at_effect = self.base(at_effect);
         (self.base_world, self.yaw) = (base.position, base.heading);
-        let base_angle = self.base_angle();
-        self.contact = if base_angle.is_nan() { None } else { self.estimator.contact(base_angle, base) };
+        let has_reading = is_measured && self.base_angle.has_reading();
+        self.contact = if has_reading { self.estimator.contact(self.base_angle(), base) } else { None };
         self.contour.begin();
         if pose_deviation != PoseDeviation::default()
             && let Some(contact) = &mut self.contact
