@@ -8,18 +8,11 @@ use super::reader::Reader;
 use super::{timing, whisker};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::physics::{Integrator, Physics, Preset, ShaftModel, Solver};
+use vibrissa_runtime::rig::keys::platform::{
+    CENTRE_OF_MASS, INERTIA, LENGTH, MASS, NOSE_WIDTH, SERVO, SPEED_LIMIT, TAIL_WIDTH, YAW_RATE_LIMIT,
+};
 use vibrissa_runtime::rig::{Platform, Rig, YawController};
 use vibrissa_runtime::units::{Dimension, format_si};
-
-const TAIL_WIDTH: Key = Key::new("tail_width", Dimension::LENGTH, (1e-3, 2.0), "120 mm");
-const NOSE_WIDTH: Key = Key::new("nose_width", Dimension::LENGTH, (0.0, 2.0), "30 mm");
-const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 2.0), "180 mm");
-const CENTRE_OF_MASS: Key = Key::new("centre_of_mass", Dimension::LENGTH, (0.0, 2.0), "72 mm");
-const MASS: Key = Key::new("mass", Dimension::MASS, (1e-3, 100.0), "0.51 kg");
-const INERTIA: Key = Key::new("inertia", Dimension::INERTIA, (1e-9, 100.0), "0.0015 kg m^2");
-const SERVO: Key = Key::new("servo", Dimension::TIME, (1e-3, 10.0), "50 ms");
-const SPEED_LIMIT: Key = Key::new("speed_limit", Dimension::SPEED, (1e-3, 100.0), "1 m/s");
-const YAW_RATE_LIMIT: Key = Key::new("yaw_rate_limit", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "180 deg/s");
 
 const YAW_PROPORTIONAL: Key = Key::new("proportional", Dimension::FREQUENCY, (0.0, 100.0), "2 Hz");
 const YAW_INTEGRAL: Key = Key::new("integral", Dimension::new(0, 0, -2, 0), (0.0, 1000.0), "0.8 Hz^2");

@@ -7,19 +7,16 @@ use super::node::Entry;
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::physics::Physics;
+use vibrissa_runtime::rig::keys::sensing::{
+    ANGLE_NOISE, CONTACT_THRESHOLD, CONTROL_RATE, FILTER_CUTOFF, SAMPLE_RATE, SURFACE_ROUGHNESS,
+};
 use vibrissa_runtime::rig::{Estimation, Rig, Sensing};
 use vibrissa_runtime::units::{Dimension, format_si};
 
 pub(super) const STEP: Key = Key::new("step", Dimension::TIME, (1e-6, 1.0), "3.33 ms");
 pub(super) const CALM_STEP: Key = Key::new("calm_step", Dimension::TIME, (1e-6, 1.0), "3.33 ms");
 
-const SAMPLE_RATE: Key = Key::new("sample_rate", Dimension::FREQUENCY, (1.0, 1e5), "300 Hz");
-const CONTROL_RATE: Key = Key::new("control_rate", Dimension::FREQUENCY, (0.1, 1e4), "30 Hz");
-const FILTER_CUTOFF: Key = Key::new("filter_cutoff", Dimension::FREQUENCY, (0.1, 1e5), "20 Hz");
-const CONTACT_THRESHOLD: Key = Key::new("contact_threshold", Dimension::ANGLE, (1e-9, 1.0), "20 urad");
 const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3");
-const SURFACE_ROUGHNESS: Key = Key::new("surface_roughness", Dimension::LENGTH, (0.0, 0.1), "0.05 mm");
-const ANGLE_NOISE: Key = Key::new("angle_noise", Dimension::ANGLE, (0.0, 1.0), "2 urad");
 const FORCE_NOISE: Key = Key::new("force_noise", Dimension::FORCE, (0.0, 1.0), "0.002 mN");
 const ANGLE_RESOLUTION: Key = Key::new("angle_resolution", Dimension::ANGLE, (0.0, 1.0), "1 urad");
 

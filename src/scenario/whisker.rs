@@ -8,30 +8,24 @@ use super::node::{Entry, Node};
 use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, NotUtf8, Span, utf8};
 use crate::physics::{MIN_INERTIA, link_inertia};
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 use vibrissa_runtime::calibration::Calibration;
+use vibrissa_runtime::rig::keys::whisker::{
+    BASE, DAMPING, DIRECTION, HINGE_ARMATURE, HINGE_STIFFNESS, LENGTH, RADIUS, YOUNG_MODULUS,
+};
 use vibrissa_runtime::rig::{Hinge, Shaft, Whisker};
 use vibrissa_runtime::signal::MAX_WHISKERS;
 use vibrissa_runtime::units::{Dimension, format_si};
 
-const BASE: Key = Key::new("base", Dimension::LENGTH, (-2.0, 2.0), "[53 mm, 30 mm]");
-const DIRECTION: Key = Key::new("direction", Dimension::ANGLE, (-PI, PI), "105 deg");
-
 const PITCH: Key = Key::new("pitch", Dimension::ANGLE, (-FRAC_PI_4, FRAC_PI_4), "1.2 deg");
 
-const LENGTH: Key = Key::new("length", Dimension::LENGTH, (1e-3, 1.0), "100 mm");
-const RADIUS: Key = Key::new("radius", Dimension::LENGTH, (1e-6, 1e-2), "0.125 mm");
 const TIP_RADIUS: Key = Key::new("tip_radius", Dimension::LENGTH, (1e-6, 1e-2), "0.05 mm");
 const DENSITY: Key = Key::new("density", Dimension::DENSITY, (1.0, 1e5), "6450 kg/m^3");
-const YOUNG_MODULUS: Key = Key::new("young_modulus", Dimension::PRESSURE, (1e3, 1e13), "100 GPa");
-const DAMPING: Key = Key::new("damping", Dimension::TIME, (0.0, 1.0), "1 ms");
 const OUT_OF_PLANE: Key = Key::new("out_of_plane", Dimension::NUMBER, (1e-3, 1e3), "4");
 const LINKS: RangeInclusive<usize> = 4..=64;
 
-const HINGE_STIFFNESS: Key = Key::new("stiffness", Dimension::TORSION_STIFFNESS, (1e-6, 1e6), "1 N m/rad");
 const HINGE_DAMPING: Key = Key::new("damping", Dimension::TORSION_DAMPING, (0.0, 1e3), "0.01 N m s/rad");
-const HINGE_ARMATURE: Key = Key::new("armature", Dimension::INERTIA, (0.0, 1.0), "1e-5 kg m^2");
 
 /// Reads the whiskers. Omitted keys have the values of the whisker with the same name in the `preset` rig. A whisker
 /// with a new name requires a position and a direction.

@@ -17,7 +17,7 @@ impl Config {
     /// [`ConfigError`] with the first problem found.
     pub fn from_json(bytes: &[u8]) -> Result<Self, ConfigError> {
         let config: Self = serde_json::from_slice(bytes).map_err(|error| ConfigError::Text(error.to_string()))?;
-        config.check()?;
+        super::check::check(&config)?;
         Ok(config)
     }
 }

@@ -59,15 +59,6 @@ impl PoseConfig {
     pub fn new(source: PoseSource) -> Self {
         Self { source, latency: 0.0, noise: pose_noise(), heading_noise: heading_noise() }
     }
-
-    /// What is wrong with the noise, if something is.
-    pub(super) fn noise_fault(&self) -> Option<&'static str> {
-        if !(0.0..=1.0).contains(&self.noise) {
-            return Some("`noise` of `pose` must be from 0 to 1 m");
-        }
-        let is_possible = (0.0..=std::f64::consts::PI).contains(&self.heading_noise);
-        (!is_possible).then_some("`heading_noise` of `pose` must be from 0 to 180 deg")
-    }
 }
 
 fn pose_noise() -> f64 {

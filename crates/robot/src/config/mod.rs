@@ -1,20 +1,25 @@
 //! The configuration of a robot: its rig, buses, limits and links. It is a YAML file such as `deploy/pi/array.yaml`.
 
 mod bus;
+mod check;
+mod device;
+mod document;
 mod json;
 mod links;
 mod mqtt;
 mod quantity;
+mod range;
+mod reader;
 mod rig;
 mod safety;
 mod sender;
 mod sensor;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 use vibrissa_mlx90393::CheckedSettings;
-use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::rig::Rig;
-use vibrissa_runtime::signal::MAX_WHISKERS;
 
 pub use bus::{BoardConfig, BusConfig};
 pub use links::{ActuatorConfig, PoseConfig, PoseSource, RecordConfig};
@@ -24,6 +29,24 @@ pub use sender::{Sender, SenderError};
 pub use sensor::{SensorConfig, SensorConfigError};
 
 use rig::RigSection;
+
+/// Reads a list, with a check of each item. It returns the key that is not possible, and the reason.
+#[cfg(feature = "emulation")]
+pub(crate) fn read_list<T: serde::de::DeserializeOwned>(
+    text: &str,
+    check: impl Fn(&T) -> Result<(), (&'static str, String)>,
+) -> Result<Vec<T>, ConfigError> {
+    if text.len() > CONFIG_LIMIT {
+        return Err(ConfigError::TooLarge);
+    }
+    let tree = document::parse(text)?;
+    let items: Vec<T> = reader::read(&tree)?;
+    for (index, item) in items.iter().enumerate() {
+        check(item)
+            .map_err(|(key, message)| check::Inconsistency { path: format!("{index}.{key}"), message }.at(&tree))?;
+    }
+    Ok(items)
+}
 
 /// Maximum number of buses.
 pub const MAX_BUSES: usize = 4;
@@ -65,14 +88,24 @@ pub struct Config {
 /// An error of a configuration.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ConfigError {
-    /// The text is not YAML of this form. The message has the line and the column.
+    /// The recorded values are not those of a configuration.
     #[error("the configuration cannot be read: {0}")]
     Text(String),
+    /// The text is not YAML of this form, or a value is not possible. Line and column count from 1.
+    #[error("line {line}, column {column}: {message}")]
+    At {
+        /// The line.
+        line: u64,
+        /// The column.
+        column: u64,
+        /// What is wrong, and what to do.
+        message: String,
+    },
     /// A value contradicts another one.
     #[error("the configuration is inconsistent: {0}")]
     Inconsistent(String),
     /// The text is too long.
-    #[error("the configuration is larger than {CONFIG_LIMIT} bytes; it is probably another file")]
+    #[error("the text is larger than {CONFIG_LIMIT} bytes; it is probably another file")]
     TooLarge,
 }
 
@@ -107,13 +140,11 @@ impl Config {
         if text.len() > CONFIG_LIMIT {
             return Err(ConfigError::TooLarge);
         }
-        let file: File = serde_yaml::from_str(text).map_err(|error| ConfigError::Text(error.to_string()))?;
-        let mut rig = file.rig.rig();
-        rig.platform.speed_limit = rig.platform.speed_limit.min(file.limits.speed);
-        rig.platform.yaw_rate_limit = rig.platform.yaw_rate_limit.min(file.limits.yaw_rate);
-        let config = Self {
+        let tree = document::parse(text)?;
+        let file: File = reader::read(&tree)?;
+        let mut config = Self {
             name: file.name,
-            rig,
+            rig: file.rig.rig(),
             sensor: file.sensor,
             buses: file.buses,
             limits: file.limits,
@@ -124,10 +155,11 @@ impl Config {
             mqtt: file.mqtt,
             record: file.record,
         };
-        if let Some(fault) = config.pose.noise_fault() {
-            return Err(ConfigError::Inconsistent(fault.to_owned()));
-        }
-        config.check()?;
+        let checked = file.rig.check().and_then(|()| range::check(&config)).and_then(|()| check::text(&config));
+        checked.map_err(|inconsistency| inconsistency.at(&tree))?;
+        let platform = &mut config.rig.platform;
+        platform.speed_limit = platform.speed_limit.min(config.limits.speed);
+        platform.yaw_rate_limit = platform.yaw_rate_limit.min(config.limits.yaw_rate);
         Ok(config)
     }
 
@@ -137,7 +169,7 @@ impl Config {
     /// [`ConfigError::Inconsistent`] if the name cannot be a part of a topic.
     pub fn named(self, name: &str) -> Result<Self, ConfigError> {
         let config = Self { name: name.to_owned(), ..self };
-        config.check()?;
+        check::check(&config)?;
         Ok(config)
     }
 
@@ -173,67 +205,6 @@ impl Config {
     #[must_use]
     pub fn whiskers_on(&self, bus: usize) -> Vec<usize> {
         self.boards().filter(|board| board.0 == bus).map(|(_, _, whisker)| whisker).collect()
-    }
-
-    fn check(&self) -> Result<(), ConfigError> {
-        let fault = |message: String| Err(ConfigError::Inconsistent(message));
-        let is_topic =
-            !self.name.is_empty() && self.name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c));
-        if !is_topic {
-            return fault(format!("`{}` is not a name for a robot; use letters, digits, `_` and `-`", self.name));
-        }
-        if self.rig.whiskers.is_empty() || self.rig.whiskers.len() > MAX_WHISKERS {
-            let count = self.rig.whiskers.len();
-            return fault(format!("the rig has {count} whiskers; give it 1 to {MAX_WHISKERS}"));
-        }
-        for whisker in &self.rig.whiskers {
-            if let Some(Err(error)) = whisker.calibration.as_ref().map(Calibration::check) {
-                return fault(format!("the calibration of the whisker `{}`: {error}", whisker.name));
-            }
-        }
-        if self.buses.is_empty() || self.buses.len() > MAX_BUSES {
-            return fault(format!("there are {} buses; give 1 to {MAX_BUSES}", self.buses.len()));
-        }
-        for bus in &self.buses {
-            if bus.boards.is_empty() || bus.boards.len() > MAX_BOARDS {
-                let (device, count) = (bus.device.display(), bus.boards.len());
-                return fault(format!("{device} has {count} boards; give it 1 to {MAX_BOARDS}"));
-            }
-            for (index, board) in bus.boards.iter().enumerate() {
-                if bus.boards[..index].iter().any(|other| other.address == board.address) {
-                    let (device, address) = (bus.device.display(), board.address);
-                    return fault(format!("two boards on {device} have the address {address:#04x}; change a jumper"));
-                }
-            }
-        }
-        for board in self.buses.iter().flat_map(|bus| &bus.boards) {
-            if !self.rig.whiskers.iter().any(|whisker| whisker.name == board.whisker) {
-                return fault(format!(
-                    "a board is assigned to the whisker `{}`, which the rig does not have",
-                    board.whisker
-                ));
-            }
-        }
-        for whisker in &self.rig.whiskers {
-            let count = self.buses.iter().flat_map(|bus| &bus.boards).filter(|b| b.whisker == whisker.name).count();
-            if count != 1 {
-                return fault(format!("the whisker `{}` has {count} boards; give it one", whisker.name));
-            }
-        }
-        let sensing = &self.rig.sensing;
-        let rounds = sensing.sample_rate / sensing.control_rate;
-        if !(1.0..=f64::from(MAX_ROUNDS)).contains(&rounds) || (rounds - rounds.round()).abs() > 1e-6 {
-            return fault(format!(
-                "a control period has {rounds} samples; choose a sample rate that is 1 to {MAX_ROUNDS} times the control rate, as a whole number"
-            ));
-        }
-        let needs_broker =
-            matches!(self.actuator, ActuatorConfig::Mqtt { .. }) || matches!(self.pose.source, PoseSource::Mqtt { .. });
-        if needs_broker && self.mqtt.is_none() {
-            return fault("the actuator or the pose uses MQTT; add `mqtt: {host: ...}`".to_owned());
-        }
-        self.settings()?;
-        Ok(())
     }
 }
 

@@ -7,6 +7,7 @@ use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::geometry::Point2;
 use vibrissa_runtime::rig::{Hinge, Platform, Rig, Sensing, Shaft, Whisker};
 
+use super::check::Inconsistency;
 use super::quantity;
 
 /// Defines a section whose keys replace fields of a struct of the rig.
@@ -86,7 +87,7 @@ struct WhiskerSection {
     calibration: Option<Calibration>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 struct Lengths(#[serde(deserialize_with = "quantity::two_lengths")] [f64; 2]);
 
 /// The section `rig`.
@@ -99,6 +100,26 @@ pub(super) struct RigSection {
 }
 
 impl RigSection {
+    /// Returns an error for a whisker that nobody can place.
+    pub(super) fn check(&self) -> Result<(), Inconsistency> {
+        let known = Rig::default().whiskers;
+        for (name, section) in &self.whiskers {
+            let is_identifier = name.starts_with(|first: char| first.is_ascii_alphabetic())
+                && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+            let missing = match (section.base, section.direction) {
+                _ if !is_identifier => Some("a whisker's name has letters, digits and _, a letter first".to_owned()),
+                _ if known.iter().any(|whisker| whisker.name == *name) => None,
+                (None, _) => Some(format!("the whisker `{name}` needs `base`, such as `base: [53 mm, 30 mm]`")),
+                (_, None) => Some(format!("the whisker `{name}` needs `direction`, such as `direction: 105 deg`")),
+                _ => None,
+            };
+            if let Some(message) = missing {
+                return Err(Inconsistency { path: format!("rig.whiskers.{name}"), message });
+            }
+        }
+        Ok(())
+    }
+
     /// The rig. Without `whiskers`, it has those of the reference rig.
     pub(super) fn rig(&self) -> Rig {
         let mut rig = Rig::default();

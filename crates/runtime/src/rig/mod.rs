@@ -4,6 +4,7 @@
 
 mod estimation;
 mod hinge;
+pub mod keys;
 mod platform;
 mod sensing;
 mod shaft;

@@ -1,0 +1,193 @@
+//! Checks of several values of a configuration.
+
+use vibrissa_mlx90393::{Address, Axis};
+use vibrissa_runtime::calibration::Calibration;
+use vibrissa_runtime::signal::MAX_WHISKERS;
+use vibrissa_runtime::units::{Dimension, format_si};
+
+use super::document::{Node, Placed};
+use super::{ActuatorConfig, Config, ConfigError, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS, PoseSource, device};
+use crate::array::Transducer;
+
+/// Values that contradict each other, or one that is not possible.
+#[derive(Debug)]
+pub(super) struct Inconsistency {
+    /// Path of the value in the text, such as `buses.0.device`.
+    pub(super) path: String,
+    pub(super) message: String,
+}
+
+impl Inconsistency {
+    /// The error at its place in the text.
+    pub(super) fn at(self, tree: &Placed<Node>) -> ConfigError {
+        let place = tree.find(&self.path).place;
+        ConfigError::At { line: place.line, column: place.column, message: self.message }
+    }
+}
+
+impl From<Inconsistency> for ConfigError {
+    fn from(inconsistency: Inconsistency) -> Self {
+        Self::Inconsistent(inconsistency.message)
+    }
+}
+
+fn fault(path: impl Into<String>, message: impl Into<String>) -> Result<(), Inconsistency> {
+    Err(Inconsistency { path: path.into(), message: message.into() })
+}
+
+/// Checks what every configuration must have, whatever its numbers are.
+pub(super) fn check(config: &Config) -> Result<(), Inconsistency> {
+    let name = &config.name;
+    if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c)) {
+        return fault("name", format!("`{name}` is not a name for a robot; use letters, digits, `_` and `-`"));
+    }
+    let whiskers = &config.rig.whiskers;
+    if whiskers.is_empty() || whiskers.len() > MAX_WHISKERS {
+        let count = whiskers.len();
+        return fault("rig.whiskers", format!("the rig has {count} whiskers; give it 1 to {MAX_WHISKERS}"));
+    }
+    for whisker in whiskers {
+        if let Some(Err(error)) = whisker.calibration.as_ref().map(Calibration::check) {
+            let (path, name) = (format!("rig.whiskers.{}.calibration", whisker.name), &whisker.name);
+            return fault(path, format!("the calibration of the whisker `{name}`: {error}"));
+        }
+    }
+    if config.buses.is_empty() || config.buses.len() > MAX_BUSES {
+        return fault("buses", format!("there are {} buses; give 1 to {MAX_BUSES}", config.buses.len()));
+    }
+    boards(config)?;
+    let sensing = &config.rig.sensing;
+    let rounds = sensing.sample_rate / sensing.control_rate;
+    if !(1.0..=f64::from(MAX_ROUNDS)).contains(&rounds) || (rounds - rounds.round()).abs() > 1e-6 {
+        return fault(
+            "rig.sensing",
+            format!(
+                "a control period has {rounds} samples; choose a sample rate that is 1 to {MAX_ROUNDS} times the control \
+                 rate, as a whole number"
+            ),
+        );
+    }
+    let needs_broker =
+        matches!(config.actuator, ActuatorConfig::Mqtt { .. }) || matches!(config.pose.source, PoseSource::Mqtt { .. });
+    if needs_broker && config.mqtt.is_none() {
+        return fault("actuator", "the actuator or the pose uses MQTT; add `mqtt: {host: ...}`");
+    }
+    config.sensor.settings(sensing.sample_rate).map(|_| ()).or_else(|error| fault("sensor", error.to_string()))
+}
+
+/// Checks the assignment of boards to whiskers.
+fn boards(config: &Config) -> Result<(), Inconsistency> {
+    for (index, bus) in config.buses.iter().enumerate() {
+        if bus.boards.is_empty() || bus.boards.len() > MAX_BOARDS {
+            let (device, count) = (bus.device.display(), bus.boards.len());
+            let message = format!("{device} has {count} boards; give it 1 to {MAX_BOARDS}");
+            return fault(format!("buses.{index}.boards"), message);
+        }
+        for (number, board) in bus.boards.iter().enumerate() {
+            let path = format!("buses.{index}.boards.{number}");
+            if bus.boards.iter().take(number).any(|other| other.address == board.address) {
+                let (device, address) = (bus.device.display(), board.address);
+                let message = format!("two boards on {device} have the address {address:#04x}; change a jumper");
+                return fault(format!("{path}.address"), message);
+            }
+            if !config.rig.whiskers.iter().any(|whisker| whisker.name == board.whisker) {
+                let name = &board.whisker;
+                let message = format!("a board is assigned to the whisker `{name}`, which the rig does not have");
+                return fault(format!("{path}.whisker"), message);
+            }
+        }
+    }
+    for whisker in &config.rig.whiskers {
+        let boards = config.buses.iter().flat_map(|bus| &bus.boards);
+        let count = boards.filter(|board| board.whisker == whisker.name).count();
+        if count != 1 {
+            return fault("buses", format!("the whisker `{}` has {count} boards; give it one", whisker.name));
+        }
+    }
+    Ok(())
+}
+
+/// Checks a configuration of a text, whose numbers are within their ranges.
+pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
+    for (index, bus) in config.buses.iter().enumerate() {
+        let (device, path) = (bus.device.display(), format!("buses.{index}.device"));
+        if bus.device.as_os_str().is_empty() {
+            return fault(path, "`device` is empty; give the device file of the bus, such as `/dev/i2c-1`");
+        }
+        if let Some(other) = config.buses.iter().take(index).find(|other| device::are_one(&other.device, &bus.device)) {
+            let other = other.device.display();
+            return fault(
+                path,
+                format!("{device} and {other} are one bus; give each bus its own device, or list all boards under one"),
+            );
+        }
+        for (number, board) in bus.boards.iter().enumerate() {
+            if let Err(error) = Address::new(board.address) {
+                return fault(format!("buses.{index}.boards.{number}.address"), format!("`address`: {error}"));
+            }
+        }
+    }
+    if config.mqtt.as_ref().is_some_and(|mqtt| mqtt.host.trim().is_empty()) {
+        return fault("mqtt.host", "`host` is empty; give the name or the address of the broker, such as `127.0.0.1`");
+    }
+    if config.record.as_ref().is_some_and(|record| record.directory.as_os_str().is_empty()) {
+        return fault("record.directory", "`directory` is empty; give a directory, such as `/var/lib/vibrissa`");
+    }
+    let platform = &config.rig.platform;
+    if platform.centre_of_mass > platform.length {
+        let (ahead, length) =
+            (format_si(platform.centre_of_mass, Dimension::LENGTH), format_si(platform.length, Dimension::LENGTH));
+        let message = format!(
+            "the centre of mass is {ahead} ahead of the tail, in front of the platform, which is {length} long; give `length` and \
+             `centre_of_mass`, the second from 0 mm to the first"
+        );
+        return fault("rig.platform.centre_of_mass", message);
+    }
+    let sensing = &config.rig.sensing;
+    if 2.0 * sensing.filter_cutoff >= sensing.sample_rate {
+        let hertz = |rate| format_si(rate, Dimension::FREQUENCY);
+        let (cutoff, highest) = (hertz(sensing.filter_cutoff), hertz(0.5 * sensing.sample_rate));
+        let message = format!(
+            "a filter cannot have its cutoff at {cutoff}; it must be below half of the sample rate, {highest}, for example \
+             `filter_cutoff: 20 Hz`"
+        );
+        return fault("rig.sensing.filter_cutoff", message);
+    }
+    check(config)?;
+    magnets(config)
+}
+
+/// Least change of a reading (counts) between a whisker at rest and one at the limit of its base angle. A whisker with a
+/// smaller one is blind.
+const LEAST_COUNTS: f64 = 20.0;
+
+/// Checks that every sensor sees the whole range of base angles of its whisker.
+fn magnets(config: &Config) -> Result<(), Inconsistency> {
+    let Ok(settings) = config.settings() else { return Ok(()) };
+    let microtesla_per_count = f64::from(settings.field_per_count_microtesla(Axis::Y));
+    for (bus, number, whisker) in config.boards() {
+        let Some(board) = config.buses.get(bus).and_then(|bus| bus.boards.get(number)) else { continue };
+        let Some(whisker) = config.rig.whiskers.get(whisker) else { continue };
+        let Transducer { magnet, hinge_stiffness, .. } = Transducer::new(board, whisker, &settings);
+        let moment = config.limits.base_angle * hinge_stiffness;
+        let path = format!("buses.{bus}.boards.{number}");
+        let name = &whisker.name;
+        // The slope of the field over the moment.
+        if 1.0 + 3.0 * magnet.cubic * moment * moment <= 0.0 {
+            let message = format!(
+                "with this `cubic`, the field at the whisker `{name}` turns back before the limit of the base angle, so a \
+                 reading has no base angle; calibrate the whisker, or lower `limits.base_angle`"
+            );
+            return fault(format!("{path}.cubic"), message);
+        }
+        let counts = (magnet.field_microtesla(moment) / microtesla_per_count).abs();
+        if counts < LEAST_COUNTS {
+            let message = format!(
+                "with this `field_per_moment`, the reading of the whisker `{name}` changes by {counts:.3} counts up to the limit \
+                 of the base angle, so it is blind; it must be at least {LEAST_COUNTS}. Calibrate the whisker"
+            );
+            return fault(format!("{path}.field_per_moment"), message);
+        }
+    }
+    Ok(())
+}

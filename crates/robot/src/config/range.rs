@@ -1,0 +1,173 @@
+//! The ranges of all numbers of a configuration. Those of the rig are the scenario's.
+
+use vibrissa_runtime::rig::keys::{platform, sensing, whisker};
+use vibrissa_runtime::rig::{Hinge, Platform, Sensing, Shaft, Whisker};
+use vibrissa_runtime::units::{Dimension, Key, format_si};
+
+use super::check::Inconsistency;
+use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, SensorConfig, Timeouts};
+
+const SPEED: Key = Key::new("speed", Dimension::SPEED, (1e-3, 100.0), "0.1 m/s");
+const YAW_RATE: Key = Key::new("yaw_rate", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "60 deg/s");
+const BASE_ANGLE: Key = Key::new("base_angle", Dimension::ANGLE, (1e-6, 1.0), "1050 urad");
+/// A shorter time of silence is usual, and after a longer one it is too late to stop.
+const SILENCE: (f64, f64) = (5e-3, 10.0);
+const SETTLE: Key = Key::new("settle", Dimension::TIME, (0.0, 60.0), "200 ms");
+const LATENCY: Key = Key::new("latency", Dimension::TIME, (0.0, 1.0), "10 ms");
+/// A pose farther off than a metre tells nothing.
+const POSE_NOISE: Key = Key::new("noise", Dimension::LENGTH, (0.0, 1.0), "20 mm");
+const HEADING_NOISE: Key = Key::new("heading_noise", Dimension::ANGLE, (0.0, std::f64::consts::PI), "5 deg");
+const CLOCK: Key = Key::new("clock", Dimension::FREQUENCY, (1e3, 1e6), "360 kHz");
+const CUBIC: Key = Key::new("cubic", Dimension::NUMBER, (-1e12, 1e12), "0");
+/// The magnitude of the field per moment. The sign is that of the board's mounting.
+const FIELD_PER_MOMENT: Key = Key::new("field_per_moment", Dimension::NUMBER, (1e-6, 1e6), "4.38");
+const LIMIT_MB: Key = Key::new("limit_mb", Dimension::NUMBER, (1.0, 1e9), "1000");
+const BUFFER: Key = Key::new("buffer", Dimension::NUMBER, (1.0, 1e6), "20000");
+const PORT: Key = Key::new("port", Dimension::NUMBER, (1.0, 65_535.0), "1883");
+
+/// A number of a configuration: its path in the text, its value (SI) and its key.
+type Number = (String, f64, Key);
+
+/// Returns an error for the first number beyond the range of its key.
+pub(super) fn check(config: &Config) -> Result<(), Inconsistency> {
+    let outside = numbers(config).into_iter().find(|(_, value, key)| !key.contains(*value));
+    if let Some((path, value, key)) = outside {
+        let Key { name, dimension, example, .. } = key;
+        let (written, range) = (format_si(value, dimension), key.range_text());
+        return Err(Inconsistency {
+            path,
+            message: format!("`{name}` cannot be {written}; it must be {range}, for example `{name}: {example}`"),
+        });
+    }
+    config.buses.iter().enumerate().try_for_each(|(bus, entry)| {
+        entry.boards.iter().enumerate().try_for_each(|(board, entry)| field_per_moment(bus, board, entry))
+    })
+}
+
+/// A gain of 0 makes a whisker blind.
+fn field_per_moment(bus: usize, board: usize, entry: &BoardConfig) -> Result<(), Inconsistency> {
+    let (found, (least, greatest)) = (entry.field_per_moment, FIELD_PER_MOMENT.range);
+    if FIELD_PER_MOMENT.contains(found.abs()) {
+        return Ok(());
+    }
+    let message = format!(
+        "`field_per_moment` cannot be {found}; it must be from {least} to {greatest} T/(N m), or as much below 0 if the board \
+         is turned around. The baseline's array has {}",
+        FIELD_PER_MOMENT.example
+    );
+    Err(Inconsistency { path: format!("buses.{bus}.boards.{board}.field_per_moment"), message })
+}
+
+fn numbers(config: &Config) -> Vec<Number> {
+    let mut numbers = Vec::new();
+    let Limits { speed, yaw_rate, base_angle } = config.limits;
+    add(&mut numbers, "limits", [(speed, SPEED), (yaw_rate, YAW_RATE), (base_angle, BASE_ANGLE)]);
+    let silence = |name| Key::new(name, Dimension::TIME, SILENCE, "40 ms");
+    let Timeouts { bus, sensor, pose, control, link, settle } = config.timeouts;
+    let timeouts = [("bus", bus), ("sensor", sensor), ("pose", pose), ("control", control), ("link", link)];
+    add(&mut numbers, "timeouts", timeouts.map(|(name, time)| (time, silence(name))));
+    add(&mut numbers, "timeouts", [(settle, SETTLE)]);
+    let PoseConfig { latency, noise, heading_noise, .. } = config.pose;
+    add(&mut numbers, "pose", [(latency, LATENCY), (noise, POSE_NOISE), (heading_noise, HEADING_NOISE)]);
+    sensor_codes(&mut numbers, &config.sensor);
+    for (index, BusConfig { clock, boards, .. }) in config.buses.iter().enumerate() {
+        add(&mut numbers, &format!("buses.{index}"), [(*clock, CLOCK)]);
+        for (board, entry) in boards.iter().enumerate() {
+            add(&mut numbers, &format!("buses.{index}.boards.{board}"), [(entry.cubic, CUBIC)]);
+        }
+    }
+    if let Some(mqtt) = &config.mqtt {
+        add(&mut numbers, "mqtt", [(mqtt.port.into(), PORT), (mqtt.buffer as f64, BUFFER)]);
+    }
+    if let Some(record) = &config.record {
+        add(&mut numbers, "record", [(record.limit_mb as f64, LIMIT_MB)]);
+    }
+    let Platform {
+        tail_width,
+        nose_width,
+        length,
+        centre_of_mass,
+        mass,
+        inertia,
+        servo,
+        speed_limit,
+        yaw_rate_limit,
+        ..
+    } = config.rig.platform;
+    add(
+        &mut numbers,
+        "rig.platform",
+        [
+            (tail_width, platform::TAIL_WIDTH),
+            (nose_width, platform::NOSE_WIDTH),
+            (length, platform::LENGTH),
+            (centre_of_mass, platform::CENTRE_OF_MASS),
+            (mass, platform::MASS),
+            (inertia, platform::INERTIA),
+            (servo, platform::SERVO),
+            (speed_limit, platform::SPEED_LIMIT),
+            (yaw_rate_limit, platform::YAW_RATE_LIMIT),
+        ],
+    );
+    config.rig.whiskers.iter().for_each(|whisker| whisker_numbers(&mut numbers, whisker));
+    let Sensing { sample_rate, control_rate, filter_cutoff, contact_threshold, angle_noise, surface_roughness, .. } =
+        config.rig.sensing;
+    add(
+        &mut numbers,
+        "rig.sensing",
+        [
+            (sample_rate, sensing::SAMPLE_RATE),
+            (control_rate, sensing::CONTROL_RATE),
+            (filter_cutoff, sensing::FILTER_CUTOFF),
+            (contact_threshold, sensing::CONTACT_THRESHOLD),
+            (angle_noise, sensing::ANGLE_NOISE),
+            (surface_roughness, sensing::SURFACE_ROUGHNESS),
+        ],
+    );
+    numbers
+}
+
+fn whisker_numbers(numbers: &mut Vec<Number>, entry: &Whisker) {
+    let path = format!("rig.whiskers.{}", entry.name);
+    for (axis, value) in [entry.base_body.x, entry.base_body.y].into_iter().enumerate() {
+        numbers.push((format!("{path}.base.{axis}"), value, whisker::BASE));
+    }
+    add(numbers, &path, [(entry.direction_body, whisker::DIRECTION)]);
+    let Shaft { length, radius, young_modulus, damping, .. } = entry.shaft;
+    add(
+        numbers,
+        &format!("{path}.shaft"),
+        [
+            (length, whisker::LENGTH),
+            (radius, whisker::RADIUS),
+            (young_modulus, whisker::YOUNG_MODULUS),
+            (damping, whisker::DAMPING),
+        ],
+    );
+    let Hinge { stiffness, armature, .. } = entry.hinge;
+    add(
+        numbers,
+        &format!("{path}.hinge"),
+        [(stiffness, whisker::HINGE_STIFFNESS), (armature, whisker::HINGE_ARMATURE)],
+    );
+}
+
+fn sensor_codes(numbers: &mut Vec<Number>, sensor: &SensorConfig) {
+    let code = |name, greatest, example| Key::new(name, Dimension::NUMBER, (0.0, greatest), example);
+    let SensorConfig { oversampling, filter, gain, resolution } = *sensor;
+    add(
+        numbers,
+        "sensor",
+        [
+            (oversampling.into(), code("oversampling", 3.0, "2")),
+            (filter.into(), code("filter", 7.0, "3")),
+            (gain.into(), code("gain", 7.0, "7")),
+            (resolution.into(), code("resolution", 3.0, "0")),
+        ],
+    );
+}
+
+/// Adds the numbers of a section.
+fn add<const N: usize>(numbers: &mut Vec<Number>, section: &str, of: [(f64, Key); N]) {
+    numbers.extend(of.map(|(value, key)| (format!("{section}.{}", key.name), value, key)));
+}
