@@ -17,20 +17,35 @@ const NANOTESLA: [([f64; 4], [f64; 4]); 8] = [
     ([150.0, 300.0, 601.0, 1202.0], [242.0, 484.0, 968.0, 1936.0]),
 ];
 
-/// The word that a field has along an axis, from 0 for X to 2 for Z. Counts stay within the output range.
+/// Largest counts of the converter with RES 0. It has 19 bits, and 22000 counts with RES 2 are its end.
+const CONVERTER_END: f64 = 88_000.0;
+
+/// The word that a field has along an axis, from 0 for X to 2 for Z. With RES 0 and 1, it is the lower 16 bits of what
+/// the converter has, so a field beyond the range wraps.
 pub(crate) fn field_word(registers: &Registers, axis: usize, field_microtesla: f64) -> u16 {
     let (xy, z) = NANOTESLA[usize::from(registers.gain())];
     let resolution = registers.resolution(axis);
     let four_phase = if axis == 2 { z } else { xy }[usize::from(resolution)];
     let nanotesla = if registers.hall() == 0 { four_phase * 98.0 / 75.0 } else { four_phase };
-    let (zero, lowest, highest) = match (resolution, registers.temperature_compensation()) {
-        (0 | 1, false) => (0, -32_768.0, 32_767.0),
-        (0 | 1, true) => (32_768, -32_768.0, 32_767.0),
-        (2, _) => (32_768, -22_000.0, 22_000.0),
-        _ => (16_384, -11_000.0, 11_000.0),
-    };
-    let counts = (field_microtesla * 1000.0 / nanotesla).round().clamp(lowest, highest);
-    word(counts + f64::from(zero))
+    let end = CONVERTER_END / f64::from(1_u32 << resolution);
+    let counts = (field_microtesla * 1000.0 / nanotesla).round().clamp(-end, end);
+    word(counts + f64::from(code(registers, axis).0))
+}
+
+/// The word at an end of the output range of an axis.
+pub(crate) fn end_word(registers: &Registers, axis: usize, negative: bool) -> u16 {
+    let (zero, lowest, highest) = code(registers, axis);
+    word(f64::from(zero + if negative { lowest } else { highest }))
+}
+
+/// The code of an axis: that of a zero field, and the counts at the ends of the output range.
+fn code(registers: &Registers, axis: usize) -> (i32, i32, i32) {
+    match (registers.resolution(axis), registers.temperature_compensation()) {
+        (0 | 1, false) => (0, -32_768, 32_767),
+        (0 | 1, true) => (32_768, -32_768, 32_767),
+        (2, _) => (32_768, -22_000, 22_000),
+        _ => (16_384, -11_000, 11_000),
+    }
 }
 
 /// The word of a temperature (°C): 46244 at 25 °C, and 45.2 per degree.
@@ -55,7 +70,9 @@ mod tests {
     #[test]
     fn each_code_has_its_zero_and_its_ends() {
         let mut registers = Registers::new(0);
-        let ends = |registers: &Registers| [-1e9, 0.0, 1e9].map(|field| field_word(registers, 1, field));
+        let ends = |registers: &Registers| {
+            [end_word(registers, 1, true), field_word(registers, 1, 0.0), end_word(registers, 1, false)]
+        };
         assert_eq!(ends(&registers), [0x8000, 0, 0x7FFF]);
         registers.set(2, 2 << 7);
         assert_eq!(ends(&registers), [10_768, 32_768, 54_768]);
@@ -64,6 +81,24 @@ mod tests {
         registers.set(2, 1 << 7);
         registers.set(1, 1 << 10);
         assert_eq!(ends(&registers), [0, 0x8000, 0xFFFF]);
+    }
+
+    #[test]
+    fn a_field_beyond_the_range_has_the_lower_16_bits_of_the_converter() {
+        let mut registers = Registers::new(0);
+        registers.set(0, 7 << 4 | 0xC);
+        // 0.15 µT per count: 6000 µT are 40,000 counts, as reports of the real sensor have them.
+        let counts = |registers: &Registers, field| field_word(registers, 1, field).cast_signed();
+        assert_eq!(
+            [4914.0, 6000.0, -6000.0, 9900.0].map(|field| counts(&registers, field)),
+            [32_760, -25_536, 25_536, 464]
+        );
+        assert_eq!(counts(&registers, 1e9), counts(&registers, 88_000.0 * 0.15), "the end of the converter");
+        for resolution in [2, 3] {
+            registers.set(2, resolution << 7);
+            assert_eq!(field_word(&registers, 1, 1e9), end_word(&registers, 1, false));
+            assert_eq!(field_word(&registers, 1, -1e9), end_word(&registers, 1, true));
+        }
     }
 
     #[test]

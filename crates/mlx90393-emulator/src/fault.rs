@@ -27,7 +27,7 @@ pub enum SensorFault {
     },
     /// Measurements repeat the data of the last read, with a fresh status.
     Frozen,
-    /// The field is beyond the range of all axes.
+    /// The outputs of all axes are held at an end of their range.
     Saturated {
         /// True for fields below zero.
         negative: bool,

@@ -1,7 +1,7 @@
 //! An emulated sensor.
 
 use crate::answer::Answer;
-use crate::counts::{field_word, temperature_word};
+use crate::counts::{end_word, field_word, temperature_word};
 use crate::fault::{SensorFault, count_down};
 use crate::field::FieldSource;
 use crate::mode::{Mode, Schedule};
@@ -293,7 +293,10 @@ impl EmulatedSensor {
             let drift = self.options.offset_drift_microtesla_per_second[axis] * middle_s;
             let offset = self.options.offset_microtesla[axis] + drift + self.fault_microtesla(axis);
             let microtesla = sum / f64::from(POINTS) + offset + noise_microtesla;
-            self.words[axis + 1] = field_word(&self.registers, axis, microtesla);
+            self.words[axis + 1] = match self.saturated() {
+                Some(negative) => end_word(&self.registers, axis, negative),
+                None => field_word(&self.registers, axis, microtesla),
+            };
         }
     }
 
@@ -311,14 +314,20 @@ impl EmulatedSensor {
         })
     }
 
+    /// The end of the output range at which a fault holds all axes: true for the negative one.
+    fn saturated(&self) -> Option<bool> {
+        self.faults.iter().find_map(|fault| match fault {
+            SensorFault::Saturated { negative } => Some(*negative),
+            _ => None,
+        })
+    }
+
     /// The field that faults add along an axis (µT).
     fn fault_microtesla(&self, axis: usize) -> f64 {
         self.faults
             .iter()
             .map(|fault| match fault {
                 SensorFault::OffsetJump { microtesla } => microtesla[axis],
-                SensorFault::Saturated { negative: true } => -1e9,
-                SensorFault::Saturated { negative: false } => 1e9,
                 _ => 0.0,
             })
             .sum()

@@ -80,6 +80,7 @@ mod settings;
 mod start;
 mod status;
 mod timing;
+mod wrap_watch;
 mod zero;
 
 pub use address::{Address, InvalidAddress};

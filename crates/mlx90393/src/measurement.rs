@@ -6,6 +6,7 @@ use crate::raw_read::RawRead;
 use crate::read_error::ReadError;
 use crate::settings::Resolution;
 use crate::status::Status;
+use crate::wrap_watch::WrapWatch;
 use core::convert::Infallible;
 
 /// One measurement.
@@ -24,6 +25,8 @@ pub struct Measurement {
     /// Code of the temperature, if it was converted.
     pub temperature: Option<u16>,
     settings: CheckedSettings,
+    /// True for each axis whose counts have wrapped.
+    has_wrapped: [bool; 3],
 }
 
 impl Measurement {
@@ -50,11 +53,32 @@ impl Measurement {
         self.temperature.map(|code| 25.0 + (f32::from(code) - 46_244.0) / 45.2)
     }
 
-    /// True if the counts of an axis are at the end of the output range, so that the field may be larger.
+    /// True if the counts of an axis are at the end of the output range, so that the field may be larger, or have wrapped.
+    ///
+    /// With [`Resolution::R0`] and [`Resolution::R1`], the sensor gives the lower 16 bits of a field beyond the range.
+    /// [`Sensor::read`](crate::Sensor::read) notices this by a jump of more than half the range since the last measurement.
+    /// A measurement of [`decode`] knows no other one, so it notices only the end of the range.
     ///
     /// It is false if the axis was not converted.
     #[must_use]
     pub fn is_saturated(&self, axis: Axis) -> bool {
+        self.has_wrapped[axis as usize] || self.is_at_end(axis)
+    }
+
+    /// Follows the axes that can wrap.
+    pub(crate) fn watch(mut self, watches: &mut [WrapWatch; 3]) -> Self {
+        for (axis, watch) in Axis::ALL.into_iter().zip(watches) {
+            let can_wrap = matches!(self.settings.get().resolution.of(axis), Resolution::R0 | Resolution::R1);
+            if let Some(counts) = self.counts(axis)
+                && can_wrap
+            {
+                self.has_wrapped[axis as usize] = watch.has_wrapped(counts, self.is_at_end(axis));
+            }
+        }
+        self
+    }
+
+    fn is_at_end(&self, axis: Axis) -> bool {
         let (lowest, highest) = match self.settings.get().resolution.of(axis) {
             Resolution::R0 | Resolution::R1 => (-0x8000, 0x7FFF),
             Resolution::R2 => (-22_000, 22_000),
@@ -101,6 +125,7 @@ pub fn decode(settings: &CheckedSettings, bytes: &[u8]) -> Result<Measurement, R
         z: counts(Axis::Z, z),
         temperature: t,
         settings: *settings,
+        has_wrapped: [false; 3],
     })
 }
 

@@ -10,6 +10,7 @@ use crate::register::Register;
 use crate::start::{StartError, StartReport};
 use crate::status::Status;
 use crate::timing::{EXIT_MS, RESET_MS};
+use crate::wrap_watch::WrapWatch;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::i2c::I2c;
 
@@ -18,13 +19,15 @@ use embedded_hal::i2c::I2c;
 pub struct Sensor {
     address: Address,
     settings: CheckedSettings,
+    /// The counts of X, Y and Z since the start.
+    watches: [WrapWatch; 3],
 }
 
 impl Sensor {
     /// Creates a sensor without any communication. [`Sensor::start`] configures it.
     #[must_use]
     pub const fn new(address: Address, settings: CheckedSettings) -> Self {
-        Self { address, settings }
+        Self { address, settings, watches: [WrapWatch::new(); 3] }
     }
 
     /// The address.
@@ -52,6 +55,7 @@ impl Sensor {
         bus: &mut I,
         delay: &mut impl DelayNs,
     ) -> Result<StartReport, StartError<I::Error>> {
+        self.watches = [WrapWatch::new(); 3];
         // The sensor may be in any mode, so this status says nothing.
         self.command(bus, Step::Exit, &[EXIT])?;
         delay.delay_ms(EXIT_MS);
@@ -98,7 +102,8 @@ impl Sensor {
         let mut raw = RawRead { bytes: [0; 9], length: axes.answer_length() };
         let answer = raw.bytes.get_mut(..usize::from(raw.length)).unwrap_or_default();
         bus.write_read(self.address.get(), &[READ_MEASUREMENT | axes.nibble()], answer).map_err(ReadError::Bus)?;
-        decode(&self.settings, raw.as_bytes()).map_err(ReadError::on_bus)
+        let decoded = decode(&self.settings, raw.as_bytes()).map_err(ReadError::on_bus)?;
+        Ok(decoded.watch(&mut self.watches))
     }
 
     /// Ends burst mode. Registers can be read and written then.

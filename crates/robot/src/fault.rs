@@ -14,9 +14,9 @@ pub enum FaultKind {
     SensorStale,
     /// A sensor does not answer, or has lost its mode. Its bring-up is tried again.
     SensorLost,
-    /// A reading or a pose is not a number or absurd, or a status byte is impossible.
+    /// A reading has no base angle, a pose is not a number or absurd, or a status byte is impossible.
     InvalidReading,
-    /// A field is at the end of the sensor's range.
+    /// A field is at the end of the sensor's range, or beyond it.
     Saturated,
     /// A base angle exceeds its limit.
     AngleLimit,
@@ -134,11 +134,11 @@ impl fmt::Display for Fault {
             FaultKind::InvalidReading => {
                 write!(
                     formatter,
-                    "a reading of whisker {part} or a pose is not a number or absurd, or a status byte is impossible"
+                    "a reading of whisker {part} has no base angle, a pose is not a number or absurd, or a status byte is impossible"
                 )
             }
             FaultKind::Saturated => {
-                write!(formatter, "the field at whisker {part} is at the end of the sensor's range")
+                write!(formatter, "the field at whisker {part} is at the end of the sensor's range, or beyond it")
             }
             FaultKind::AngleLimit => write!(formatter, "the base angle of whisker {part} exceeds its limit"),
             FaultKind::BusBlocked => write!(formatter, "bus {part} completes no round"),

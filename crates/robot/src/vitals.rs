@@ -23,6 +23,8 @@ pub struct Vitals {
     pub sensor: [SensorVital; MAX_WHISKERS],
     /// One bit for each whisker whose base angle has exceeded its limit.
     pub beyond_limit: AtomicU64,
+    /// One bit for each whisker whose newest reading has no base angle, because its magnet has no such field.
+    pub without_angle: AtomicU64,
     /// Arrival of the last valid pose.
     pub pose_ns: AtomicU64,
     /// End of the last control tick.
@@ -180,6 +182,16 @@ impl Vitals {
         }
         if let Some(last) = self.round_ns.get(usize::from(round.bus)) {
             last.store(round.ended_ns, Ordering::Release);
+        }
+    }
+
+    /// Notes whether the newest reading of a whisker has a base angle.
+    pub fn angle_taken(&self, whisker: usize, is_finite: bool) {
+        let bit = 1_u64.checked_shl(u32::try_from(whisker).unwrap_or(u32::MAX)).unwrap_or(0);
+        if is_finite {
+            self.without_angle.fetch_and(!bit, Ordering::AcqRel);
+        } else {
+            self.without_angle.fetch_or(bit, Ordering::AcqRel);
         }
     }
 

@@ -36,7 +36,7 @@ pub struct BoardReading {
 pub enum ReadingState {
     /// A new value, in counts.
     Fresh(i32),
-    /// The field is at the end of the sensor's range.
+    /// The field is at the end of the sensor's range, or has wrapped beyond it.
     Saturated,
     /// The board has no new value since the last round.
     Stale,
@@ -49,7 +49,8 @@ pub enum ReadingState {
 }
 
 impl ReadingState {
-    /// The result of a read of the driver. It depends only on the received bytes, if there are any.
+    /// The result of a read of the driver. It depends only on the received bytes, if there are any, except for a wrapped
+    /// field, which the driver notices by the readings before.
     #[must_use]
     pub fn of<E>(read: &Result<Measurement, ReadError<E>>) -> Self {
         match read {

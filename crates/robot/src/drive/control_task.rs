@@ -17,6 +17,8 @@ use crate::config::Config;
 use crate::link::StampedCommand;
 use crate::vitals::Vitals;
 
+/// Time (s) that the supervisor needs beyond a timeout until it has stopped the machine.
+const STOPPING: f64 = 0.05;
 /// Maximum number of messages of the policy that are passed on for one tick.
 const MESSAGES_A_TICK: usize = 8;
 
@@ -70,12 +72,13 @@ impl ControlTask {
     #[must_use]
     pub fn new(
         config: &Config,
-        control: Control,
+        mut control: Control,
         assembler: Assembler,
         inputs: Inputs,
         outputs: Outputs,
         vitals: Arc<Vitals>,
     ) -> Self {
+        control.keep_for(config.timeouts.sensor + STOPPING);
         Self {
             control,
             assembler,
@@ -196,10 +199,14 @@ impl ControlTask {
         for bus in &mut self.inputs.rounds {
             while let Ok(round) = bus.pop() {
                 self.outputs.records.send(&LoopRecord::Round(round));
-                if let Some(zeroing) = &mut self.zeroing {
-                    for (whisker, counts) in self.assembler.counts(&round) {
-                        if let Some(counts) = counts {
-                            zeroing.take(whisker, counts);
+                for (whisker, counts) in self.assembler.counts(&round) {
+                    let Some(counts) = counts else { continue };
+                    match &mut self.zeroing {
+                        Some(zeroing) => zeroing.take(whisker, counts),
+                        None => {
+                            let values = self.assembler.values(whisker, counts);
+                            let is_finite = values.is_none_or(|(_, base_angle)| base_angle.is_finite());
+                            self.vitals.angle_taken(whisker, is_finite);
                         }
                     }
                 }
@@ -220,12 +227,11 @@ impl ControlTask {
     }
 }
 
-/// Longest time (ns) over which a pose is extrapolated. Within the timeout of poses the machine always has one, and the
-/// supervisor needs some more time to stop it.
+/// Longest time (ns) over which a pose is extrapolated. Until the supervisor has stopped the machine, it always has one.
 fn pose_reach_ns(config: &Config) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
-    let timeout_ns = (config.timeouts.pose * 1e9) as u64;
-    timeout_ns.saturating_add(50_000_000)
+    let (timeout_ns, stopping_ns) = ((config.timeouts.pose * 1e9) as u64, (STOPPING * 1e9) as u64);
+    timeout_ns.saturating_add(stopping_ns)
 }
 
 /// Marks whiskers whose base angle exceeds its limit, also those that the policy does not use.

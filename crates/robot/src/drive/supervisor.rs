@@ -207,7 +207,10 @@ impl Supervisor {
                 self.has_sensor_fault(kind, part, vitals, &is_silent)
             }
             FaultKind::InvalidReading => {
-                (part == 0 && flag(&vitals.is_invalid)) || self.has_sensor_fault(kind, part, vitals, &is_silent)
+                let is_without_angle = vitals.without_angle.load(Ordering::Acquire) & (1 << part) != 0;
+                (part == 0 && flag(&vitals.is_invalid))
+                    || is_without_angle
+                    || self.has_sensor_fault(kind, part, vitals, &is_silent)
             }
             FaultKind::AngleLimit => vitals.beyond_limit.load(Ordering::Acquire) & (1 << part) != 0,
             FaultKind::BusBlocked => is_silent(vitals.round_ns.get(part), self.timeouts.bus),

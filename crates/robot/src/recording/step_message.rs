@@ -156,6 +156,10 @@ impl RoundMessage {
             let decoded = message.decoded(settings);
             match decoded {
                 Some(decoded) if decoded.state == recorded => *reading = decoded,
+                // The driver has noticed a wrap by the readings before. The bytes alone do not tell.
+                Some(BoardReading { state: ReadingState::Fresh(_), raw }) if recorded == ReadingState::Saturated => {
+                    *reading = BoardReading { state: recorded, raw };
+                }
                 _ => {
                     let decoded = decoded.map(|reading| reading.state);
                     return Err(DecodingDifference { board, recorded, decoded });

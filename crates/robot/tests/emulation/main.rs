@@ -5,6 +5,7 @@ mod admission;
 mod artifacts;
 mod campaign;
 mod damage;
+mod fields;
 mod kept;
 mod links;
 mod panic;

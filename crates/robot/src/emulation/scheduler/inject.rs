@@ -67,8 +67,12 @@ impl<P: Plant> Emulation<P> {
                 self.sensor_fault(part, begins, SensorFault::Saturated { negative: false });
             }
             InjectionKind::OverbentWhisker => {
-                if let Some(bent) = self.timeline.borrow_mut().bent.get_mut(usize::from(part)) {
-                    *bent = begins.then_some(self.overbent_moment);
+                let mut timeline = self.timeline.borrow_mut();
+                // It is bent further to the side to which it is bent already. The other one would be a wrapped field.
+                let now = timeline.at(self.now_ns).base_moments.get(usize::from(part)).copied().unwrap_or(0.0);
+                let moment = self.overbent_moment.copysign(now);
+                if let Some(bent) = timeline.bent.get_mut(usize::from(part)) {
+                    *bent = begins.then_some(moment);
                 }
             }
             InjectionKind::StuckBus => {
