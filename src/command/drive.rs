@@ -28,7 +28,7 @@ use crate::file::CommandFiles;
 use crate::live::RunSetup;
 use crate::load::{self, GivenMismatch, Loaded};
 use crate::report::{Table, faults_table, results_table};
-use crate::results::DriveResult;
+use crate::results::{DriveResult, UndetectedFault};
 use crate::scene::Scene;
 use crate::trial::{Inputs, Trial};
 
@@ -133,14 +133,10 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     let Loaded { value: mut scene, hash: scenario_hash } = load::scenario_in(&source, &mut files)?;
     let policy = load::policy(&arguments.machine, &mut files)?;
     output::warnings(&policy.value);
-    let injections = match &arguments.inject {
-        Some(path) => injections(path, &mut files)?,
-        None => Vec::new(),
-    };
-    let settings = EmulationSettings {
+    let mut settings = EmulationSettings {
         seed: arguments.seed.unwrap_or(scene.seed),
         noise_microtesla: arguments.sensor_noise,
-        injections,
+        injections: Vec::new(),
     };
     let (config, config_text) = match &arguments.config {
         Some(path) => {
@@ -150,6 +146,9 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         }
         None => (emulated_config(arguments, &mut scene, scenario, &settings)?, None),
     };
+    if let Some(path) = &arguments.inject {
+        settings.injections = injections(path, &config, scene.stop.time, &mut files)?;
+    }
     #[cfg(feature = "live")]
     let text = policy.value.text.map(|text| text.source);
     let artifact = policy.value.artifact;
@@ -193,8 +192,9 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     #[cfg(not(feature = "live"))]
     let mut page = ();
     let emulated = emulated::run(&trial, &config, &settings, record, &mut page).map_err(|cause| {
-        let scenario = trial.inputs.scenario.clone();
-        Failure::Emulated { scenario, cause }
+        // With a configuration, the rig is that of its file.
+        let path = arguments.config.clone().unwrap_or_else(|| trial.inputs.scenario.clone());
+        Failure::Emulated { path, cause }
     })?;
     #[cfg(feature = "live")]
     if let Some(page) = page {
@@ -211,7 +211,14 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     if let Some(report) = report {
         report.write(&provenance, &trial, &emulated.result, &document)?;
     }
-    let result = DriveResult::new(document, &emulated.events, emulated.begun_ns, emulated.missed);
+    let undetected = settings.injections.iter().filter(|it| !it.was_detected(&emulated.events, emulated.begun_ns));
+    let undetected: Vec<_> = undetected.copied().collect();
+    let result = DriveResult::new(document, &emulated.events, emulated.begun_ns, emulated.missed, &undetected);
+    for UndetectedFault { kind, part, at_s } in &result.undetected {
+        output::message(format_args!(
+            "warning: the fault {kind} of part {part}, injected at {at_s} s, was not detected: it had no effect, or the run had ended"
+        ));
+    }
     output::document(arguments.format, &provenance, &result, || tables(&result))?;
     #[cfg(feature = "live")]
     if let Some(live) = live {
@@ -233,9 +240,28 @@ pub(super) fn config(path: &Path, files: &mut CommandFiles) -> Result<(Config, S
     Ok((config, text))
 }
 
-/// Reads a list of faults.
-fn injections(path: &Path, files: &mut CommandFiles) -> Result<Vec<Injection>, Failure> {
+/// Time (s) without a fault after which a robot goes on. It is more than the longest one of a configuration.
+const RESUMED: f64 = 61.0;
+
+/// Reads a list of faults for a robot, in a run of at most `time` (s).
+fn injections(path: &Path, config: &Config, time: f64, files: &mut CommandFiles) -> Result<Vec<Injection>, Failure> {
     let text = load::read(path, files)?;
-    serde_yaml::from_str(&text.text)
-        .map_err(|cause| Failure::Injections { path: path.to_owned(), cause: cause.to_string() })
+    let refused = |cause: String| Failure::Injections { path: path.to_owned(), cause };
+    let injections = Injection::list(&text.text, config).map_err(|cause| refused(cause.to_string()))?;
+    let seconds = |milliseconds: u64| milliseconds as f64 * 1e-3;
+    for (index, injection) in injections.iter().enumerate() {
+        // Faults before it make the run longer.
+        let others =
+            injections.iter().enumerate().filter(|(other, before)| *other != index && before.at_ms <= injection.at_ms);
+        let latest = time + others.map(|(_, before)| seconds(before.for_ms) + RESUMED).sum::<f64>();
+        if seconds(injection.at_ms) >= latest {
+            let at = seconds(injection.at_ms);
+            return Err(refused(format!(
+                "the fault {} would begin at {at} s, and the run ends after {latest} s at the latest; give an earlier `at_ms`, \
+                 or a later `stop: {{time: ...}}` of the scenario",
+                index + 1
+            )));
+        }
+    }
+    Ok(injections)
 }

@@ -185,12 +185,12 @@ pub(super) enum Failure {
          the configuration, or measure `field_per_moment` with weights first: it must be right within a factor of five"
     )]
     NoField { whisker: String },
-    #[error("{} is no list of faults: {cause}", path.display())]
+    #[error("{}: {cause}", path.display())]
     Injections { path: PathBuf, cause: String },
     #[error("{}: {cause}", machine.display())]
     NotAdmitted { machine: PathBuf, cause: vibrissa_robot::admission::Refusal },
-    #[error("{}: {cause}", scenario.display())]
-    Emulated { scenario: PathBuf, cause: EmulatedError },
+    #[error("{}: {cause}", path.display())]
+    Emulated { path: PathBuf, cause: EmulatedError },
     #[error(transparent)]
     Machine(#[from] SignedMachineError),
     #[error(transparent)]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use vibrissa_robot::emulation::Injection;
 use vibrissa_robot::fault::{FaultChange, FaultEvent};
 use vibrissa_robot::vitals::Phase;
 
@@ -18,6 +19,20 @@ pub struct DriveResult {
     pub faults: Vec<FaultRecord>,
     /// Missed periods of each phase of the loop.
     pub missed: BTreeMap<String, u64>,
+    /// Injected faults that the supervisor has not detected, because they had no effect or the run had ended.
+    pub undetected: Vec<UndetectedFault>,
+}
+
+/// An injected fault that was not detected.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct UndetectedFault {
+    /// Kind of the fault that the supervisor should have detected.
+    pub kind: String,
+    /// Index of the whisker or bus.
+    pub part: u8,
+    /// Time of the injection.
+    pub at_s: f64,
 }
 
 /// A fault with its times.
@@ -45,9 +60,21 @@ impl Document for DriveResult {
 impl DriveResult {
     /// The result of a run that began at `begun_ns` of the robot's time.
     #[must_use]
-    pub fn new(run: RunResult, events: &[FaultEvent], begun_ns: u64, missed: [u64; Phase::COUNT]) -> Self {
+    pub fn new(
+        run: RunResult,
+        events: &[FaultEvent],
+        begun_ns: u64,
+        missed: [u64; Phase::COUNT],
+        undetected: &[Injection],
+    ) -> Self {
         let missed = Phase::ALL.iter().zip(missed).map(|(phase, count)| (phase.name().to_owned(), count));
-        Self { run, faults: fault_records(events, begun_ns), missed: missed.collect() }
+        let undetected = undetected.iter().map(|injection| UndetectedFault {
+            kind: injection.kind.expected().name().to_owned(),
+            part: injection.part,
+            at_s: injection.at_ms as f64 * 1e-3,
+        });
+        let faults = fault_records(events, begun_ns);
+        Self { run, faults, missed: missed.collect(), undetected: undetected.collect() }
     }
 }
 

@@ -24,7 +24,7 @@ pub use calibration_identity::{CalibrationIdentity, CalibrationKind};
 pub use collisions::Collisions;
 pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};
-pub use drive_result::{DriveResult, FaultRecord};
+pub use drive_result::{DriveResult, FaultRecord, UndetectedFault};
 pub use ending::{Ending, unmet};
 pub use failsafes::Failsafes;
 pub use inclination::Inclination;

@@ -2,7 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fault::FaultKind;
+use crate::config::{Config, ConfigError, read_list};
+use crate::fault::{FaultChange, FaultEvent, FaultKind};
+
+/// The longest time of an injection (ms): a day.
+const LONGEST_MS: u64 = 86_400_000;
+/// Time (ns) after the end of an injected fault in which it still counts as detected. A reading arrives after some periods.
+const LATE_NS: u64 = 100_000_000;
 
 /// One injected fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,6 +23,63 @@ pub struct Injection {
     /// Index of the whisker or of the bus that it concerns.
     #[serde(default)]
     pub part: u8,
+}
+
+impl Injection {
+    /// Reads a list of faults for a robot.
+    ///
+    /// # Errors
+    /// [`ConfigError::At`] with the place of the first fault that cannot happen to this robot.
+    pub fn list(text: &str, config: &Config) -> Result<Vec<Self>, ConfigError> {
+        read_list(text, |injection: &Self| injection.check(config))
+    }
+
+    /// Returns the key that cannot be so, and the reason.
+    fn check(&self, config: &Config) -> Result<(), (&'static str, String)> {
+        let Self { at_ms, for_ms, kind, part } = *self;
+        if at_ms > LONGEST_MS {
+            return Err(("at_ms", format!("`at_ms` cannot be {at_ms}; it must be from 0 to {LONGEST_MS}")));
+        }
+        let shortest = u64::from(!kind.is_momentary());
+        if !(shortest..=LONGEST_MS).contains(&for_ms) {
+            return Err(("for_ms", format!("`for_ms` cannot be {for_ms}; it must be from {shortest} to {LONGEST_MS}")));
+        }
+        let (what, count) = match kind {
+            InjectionKind::StuckBus => ("bus", config.buses.len()),
+            _ if kind.concerns_a_whisker() => ("whisker", config.rig.whiskers.len()),
+            _ => return Ok(()),
+        };
+        if usize::from(part) < count {
+            return Ok(());
+        }
+        let last = count.saturating_sub(1);
+        Err(("part", format!("`part` cannot be {part}; it is the index of a {what} of this robot, from 0 to {last}")))
+    }
+
+    /// True if the supervisor has noticed this fault. The machine has begun at `begun_ns`, and `events` has all changes of
+    /// faults.
+    #[must_use]
+    pub fn was_detected(&self, events: &[FaultEvent], begun_ns: u64) -> bool {
+        let has_part = self.kind.concerns_a_whisker() || self.kind == InjectionKind::StuckBus;
+        let part = if has_part { self.part } else { 0 };
+        let from_ns = begun_ns.saturating_add(self.at_ms.saturating_mul(1_000_000));
+        let until_ns = from_ns.saturating_add(self.for_ms.saturating_mul(1_000_000)).saturating_add(LATE_NS);
+        let mut present_since = None;
+        for event in events.iter().filter(|event| event.fault.kind == self.kind.expected() && event.fault.part == part)
+        {
+            match event.change {
+                FaultChange::Detected => present_since = Some(event.time_ns),
+                FaultChange::Recovered => {
+                    let since = present_since.take();
+                    if since.is_some_and(|since| since <= until_ns) && event.time_ns >= from_ns {
+                        return true;
+                    }
+                }
+                FaultChange::Reacted => {}
+            }
+        }
+        present_since.is_some_and(|since| since <= until_ns)
+    }
 }
 
 /// The kinds of injected faults.
@@ -129,6 +192,12 @@ impl InjectionKind {
         self as usize
     }
 
+    /// True if the fault happens at one moment. Its duration means nothing.
+    #[must_use]
+    pub fn is_momentary(self) -> bool {
+        matches!(self, Self::BrownOut | Self::ControlPanics | Self::MachineFails | Self::Terminate)
+    }
+
     /// True if the fault concerns the sensor of one whisker.
     #[must_use]
     pub fn concerns_a_whisker(self) -> bool {
@@ -141,5 +210,62 @@ impl InjectionKind {
                 | Self::SaturatedField
                 | Self::OverbentWhisker
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use super::*;
+    use vibrissa_runtime::rig::Rig;
+
+    fn refusal(text: &str) -> String {
+        Injection::list(text, &Config::emulated(Rig::default(), 1.5)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_fault_that_cannot_happen_is_refused_at_its_place() {
+        for (text, line, words) in [
+            ("- {at_ms: 2000, for_ms: 300, kind: stale_sensor, part: 99}", 1, "`part` cannot be 99"),
+            (
+                "- {at_ms: 2, for_ms: 300, kind: no_pose}\n- {at_ms: 2, for_ms: 300, kind: stuck_bus, part: 2}",
+                2,
+                "from 0 to 1",
+            ),
+            ("- {at_ms: 2000, for_ms: 18446744073709551615, kind: no_pose}", 1, "from 1 to 86400000"),
+            ("- {at_ms: 18446744073709551615, for_ms: 1, kind: no_pose}", 1, "`at_ms` cannot be"),
+            ("- {at_ms: 2000, for_ms: 0, kind: silent_actuator}", 1, "`for_ms` cannot be 0"),
+            ("- {at_ms: -1, for_ms: 3, kind: no_pose}", 1, "`at_ms`: must be a whole number that is not negative"),
+            ("- {at_ms: 1, for_ms: 3, kind: no_poses}", 1, "did you mean `no_pose`?"),
+            ("- {at_ms: 1, for_ms: 3, kind: no_pose, part: 300}", 1, "`part`: must be a whole number from 0 to 255"),
+            ("- {at: 1, for_ms: 3, kind: no_pose}", 1, "there is no key `at`"),
+            ("- {for_ms: 3, kind: no_pose}", 1, "the key `at_ms` is missing"),
+            ("kind: no_pose", 1, "must be a list"),
+        ] {
+            let found = refusal(text);
+            assert!(found.starts_with(&format!("line {line}, column ")) && found.contains(words), "{text}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_fault_counts_as_detected_while_it_lasts() {
+        let injection = Injection { at_ms: 1000, for_ms: 200, kind: InjectionKind::NoPose, part: 0 };
+        let event = |time_ms: u64, change| FaultEvent {
+            time_ns: time_ms * 1_000_000,
+            fault: crate::fault::Fault { kind: FaultKind::PoseOld, part: 0 },
+            change,
+        };
+        // The machine has begun at 500 ms.
+        let is_detected = |events: &[FaultEvent]| injection.was_detected(events, 500_000_000);
+        let (detected, recovered) = (FaultChange::Detected, FaultChange::Recovered);
+        assert!(!is_detected(&[]));
+        assert!(is_detected(&[event(1560, detected)]));
+        assert!(is_detected(&[event(1560, detected), event(2000, recovered)]));
+        assert!(is_detected(&[event(900, detected), event(1600, recovered)]), "it was present before");
+        assert!(!is_detected(&[event(900, detected), event(1400, recovered)]));
+        assert!(!is_detected(&[event(1900, detected)]));
+        let other = Injection { part: 1, kind: InjectionKind::StaleSensor, ..injection };
+        assert!(!other.was_detected(&[event(1560, detected)], 500_000_000));
     }
 }
