@@ -25,7 +25,7 @@ use super::watch::{termination, watch};
 use crate::admission::{Admission, Device, admit};
 use crate::config::{CONFIG_LIMIT, Config};
 use crate::drive::RecordSink;
-use crate::store::DEFAULT_STORE;
+use crate::store::{DEFAULT_KEYS, DEFAULT_STORE, Keys, Store};
 use crate::telemetry::Source;
 
 const EXAMPLE: &str = "Examples:\n  vibrissa-robot drive --config /etc/vibrissa/array.yaml\n  \
@@ -52,6 +52,10 @@ pub(super) struct DriveArguments {
     /// Directory of the store
     #[arg(long, value_name = "DIR", default_value = DEFAULT_STORE, conflicts_with = "machine")]
     store: PathBuf,
+    /// Directory of the trusted public keys, with which a machine of the store is verified again. By default
+    /// /etc/vibrissa/keys, if there is one
+    #[arg(long, value_name = "DIR", conflicts_with = "machine")]
+    keys: Option<PathBuf>,
     /// Mark a tentative machine good after this many seconds without a stop
     #[arg(long, value_name = "SECONDS", default_value_t = GOOD_AFTER_S, conflicts_with = "machine",
         value_parser = clap::value_parser!(u32).range(1..))]
@@ -65,11 +69,25 @@ pub(super) fn drive(arguments: &DriveArguments) -> Result<ExitCode, Error> {
     let (config, config_text) = read_config(&arguments.config)?;
     let (artifact, mut run) = match &arguments.machine {
         Some(path) => (read_machine(path)?, MachineRun::of_file()),
-        None => MachineRun::of_store(&arguments.store)?,
+        None => MachineRun::of_store(store(arguments, &config.name)?)?,
     };
     let result = drive_by(&artifact, &mut run, &config, config_text, arguments);
     run.end();
     result
+}
+
+/// The store of the robot, with the keys that it trusts.
+fn store(arguments: &DriveArguments, name: &str) -> Result<Store, Error> {
+    let store = Store::open(&arguments.store)?.of_robot(name);
+    let usual = Path::new(DEFAULT_KEYS);
+    let keys = arguments.keys.as_deref().or_else(|| usual.exists().then_some(usual));
+    let Some(keys) = keys else { return Ok(store) };
+    match Keys::from_folder(keys) {
+        Ok(keys) => Ok(store.trusting(keys)),
+        // Without a machine, the keys do not matter, and the service must end with the status for that.
+        Err(_) if store.status()?.current().is_none() => Ok(store),
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn drive_by(

@@ -1,7 +1,6 @@
 //! The run of a machine, and its effect on the store.
 
 use std::fmt::Display;
-use std::path::Path;
 use std::sync::Arc;
 
 use vibrissa_runtime::machine::{Artifact, Status};
@@ -42,9 +41,8 @@ impl MachineRun {
         Self { tentative: None, outcome: Outcome::NotExecuted }
     }
 
-    /// Begins the run of the machine of the store at `path`.
-    pub(super) fn of_store(path: &Path) -> Result<(Artifact, Self), StoreError> {
-        let store = Store::open(path)?;
+    /// Begins the run of the machine of a store.
+    pub(super) fn of_store(store: Store) -> Result<(Artifact, Self), StoreError> {
         let before = store.status()?.tentative;
         let machine = store.begin_run()?;
         let (hash, is_tentative) = (machine.hash, machine.role == Role::Tentative);
@@ -125,6 +123,8 @@ impl RecordSink for GoodAfter {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+    use std::path::Path;
+
     use vibrissa_runtime::geometry::{Point2, Pose};
     use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
@@ -152,7 +152,7 @@ mod tests {
                 store.mark_good(machine(1).hash()).unwrap();
             }
         }
-        let run = MachineRun::of_store(folder.path()).unwrap().1;
+        let run = MachineRun::of_store(Store::open(folder.path()).unwrap()).unwrap().1;
         (folder, store, run)
     }
 
@@ -228,7 +228,7 @@ mod tests {
         run.note_failure("a reason");
         run.end();
         let before = store.status().unwrap();
-        let (_, mut run) = MachineRun::of_store(folder.path()).unwrap();
+        let (_, mut run) = MachineRun::of_store(Store::open(folder.path()).unwrap()).unwrap();
         assert!(run.good_after(TICKS).is_none());
         run.note_failure("another reason");
         run.end();

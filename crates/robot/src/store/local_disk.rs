@@ -7,7 +7,9 @@ use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use rustix::fs::{AtFlags, CWD, Dir, Mode, OFlags, fsync, mkdirat, openat, renameat, unlinkat};
+use rustix::fs::{
+    AtFlags, CWD, Dir, Gid, Mode, OFlags, Uid, fchmod, fchown, fstat, fsync, mkdirat, openat, renameat, unlinkat,
+};
 use rustix::io::Errno;
 
 use super::disk::{Disk, Folder, Lock};
@@ -21,6 +23,7 @@ const PAUSE: Duration = Duration::from_millis(5);
 /// Modes of new folders and files, before the umask.
 const FOLDER_MODE: Mode = Mode::from_raw_mode(0o755);
 const FILE_MODE: Mode = Mode::from_raw_mode(0o644);
+const LOCK_MODE: Mode = Mode::from_raw_mode(0o600);
 
 /// The folders of a store, open. All files are opened relative to them, so nobody can exchange a folder for a link.
 #[derive(Debug)]
@@ -69,6 +72,21 @@ impl LocalDisk {
     }
 }
 
+impl LocalDisk {
+    /// Leaves the lock to the owner of the store, because everybody who can read a file can lock it. A lock that root has
+    /// made is given to the owner too. Another user's lock stays as it is.
+    fn protect(&self, file: &File) {
+        if let (Ok(lock), Ok(root)) = (fstat(file), fstat(&self.root)) {
+            if lock.st_uid != root.st_uid {
+                let _ = fchown(file, Some(Uid::from_raw(root.st_uid)), Some(Gid::from_raw(root.st_gid)));
+            }
+            if lock.st_mode & 0o777 != LOCK_MODE.as_raw_mode() {
+                let _ = fchmod(file, LOCK_MODE);
+            }
+        }
+    }
+}
+
 fn not_regular(name: &str, kind: &str) -> Error {
     Error::new(ErrorKind::InvalidInput, format!("{name} is a symbolic link or something else than a {kind}"))
 }
@@ -76,6 +94,7 @@ fn not_regular(name: &str, kind: &str) -> Error {
 impl Disk for LocalDisk {
     fn lock(&self) -> Result<Lock> {
         let file = self.open_file(Folder::Root, LOCK_FILE, OFlags::RDONLY | OFlags::CREATE)?;
+        self.protect(&file);
         let until = Instant::now() + PATIENCE;
         loop {
             match file.try_lock() {

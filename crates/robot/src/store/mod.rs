@@ -7,7 +7,7 @@
 //! | `machines/HASH.machine` | an artifact; HASH is its SHA-256 |
 //! | `machines/HASH.machine.minisig` | its signature |
 //! | `state.json` | the [`State`]: the good machine, the tentative one, and the last one that was given up |
-//! | `lock` | an empty file, locked while a program changes the store |
+//! | `lock` | an empty file, locked while a program changes the store. Only the owner of the store can read it |
 //!
 //! Other files stay untouched. The public keys that a robot trusts are outside of the store, normally in [`DEFAULT_KEYS`].
 //! A user who can write there or in the store decides which machines run.
@@ -23,12 +23,19 @@
 //!
 //! A tentative machine that was started and not marked good is given up at the next start. The last good machine returns.
 //!
+//! # Old machines and other robots
+//!
+//! A signature is good for every robot that trusts its key, and for ever, unless its trusted comment has [`Claims`]: the name
+//! of a robot, and a counter. They are checked when a machine is received. They are checked again with its signature when it
+//! is loaded, if the store has the name and the keys ([`Store::of_robot`], [`Store::trusting`]).
+//!
 //! # Loss of power
 //!
 //! After a kill or a loss of power at any time, the store has either the old state or the new one. The machines that the
 //! state names are written and synchronised before the state. Files that it no longer names are removed after it.
 
 mod answer;
+mod claims;
 mod disk;
 mod file;
 mod frame;
@@ -49,6 +56,7 @@ mod text;
 mod verified_machine;
 
 pub use answer::Answer;
+pub use claims::Claims;
 pub use frame::{FrameError, SIGNATURE_LIMIT};
 pub use keys::{DEFAULT_KEYS, Keys, KeysError};
 pub use machine_hash::{MachineHash, ParseHashError};

@@ -117,6 +117,11 @@ impl SignedMachine {
         &self.signature
     }
 
+    /// The trusted comment, not yet verified. `None` if the signature has none.
+    pub(super) fn unverified_comment(&self) -> Option<&str> {
+        self.signature.lines().find_map(|line| line.strip_prefix("trusted comment: "))
+    }
+
     /// The hash of the artifact.
     #[must_use]
     pub fn hash(&self) -> MachineHash {

@@ -24,6 +24,9 @@ pub struct State {
     pub rejected: Option<Rejection>,
     /// Up to [`KEPT`] older machines, the latest first.
     pub previous: Vec<MachineHash>,
+    /// The largest counter of a machine that was marked good. A machine with a smaller one, or with none, is refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counter: Option<u64>,
 }
 
 /// A machine that has not yet been marked good.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
 
 use super::answer::Answer;
+use super::claims::Claims;
 use super::disk::{Disk, Folder, Lock, is_temporary, replace};
 use super::frame::SIGNATURE_LIMIT;
 use super::keys::Keys;
@@ -17,7 +18,7 @@ use super::signed_machine::SignedMachine;
 use super::state::{Role, State};
 use super::state_file::{self, STATE_FILE, STATE_LIMIT};
 use super::store_error::{ReceiveError, StoreError};
-use super::verified_machine::VerifiedMachine;
+use super::verified_machine::{Refusal, VerifiedMachine};
 
 /// The usual directory of a store.
 pub const DEFAULT_STORE: &str = "/var/lib/vibrissa";
@@ -33,6 +34,10 @@ pub struct Store {
     path: PathBuf,
     disk: Box<dyn Disk>,
     start_limit: NonZeroU32,
+    /// Name of the robot, if it is known.
+    robot: Option<String>,
+    /// The keys with which a machine is verified again when it is loaded.
+    keys: Option<Keys>,
 }
 
 /// A machine of a store that is safe to run.
@@ -60,7 +65,19 @@ impl Store {
 
     /// A store on another disk. The path is used in messages only.
     pub(super) fn on(path: &Path, disk: Box<dyn Disk>) -> Self {
-        Self { path: path.to_owned(), disk, start_limit: START_LIMIT }
+        Self { path: path.to_owned(), disk, start_limit: START_LIMIT, robot: None, keys: None }
+    }
+
+    /// Sets the name of the robot. A machine that was signed for another one is refused when it is received and when it is loaded.
+    #[must_use]
+    pub fn of_robot(self, name: &str) -> Self {
+        Self { robot: Some(name.to_owned()), ..self }
+    }
+
+    /// Verifies the signature of a machine again when it is loaded, with the keys that the robot trusts then.
+    #[must_use]
+    pub fn trusting(self, keys: Keys) -> Self {
+        Self { keys: Some(keys), ..self }
     }
 
     /// Sets the number of starts after which a tentative machine is given up, if it was not marked good. The default is 1.
@@ -88,8 +105,8 @@ impl Store {
     /// The state cannot be read, there is no machine, or it cannot be used.
     pub fn current(&self) -> Result<StoredMachine, StoreError> {
         let state = self.status()?;
-        let (hash, role) = state.current().ok_or(StoreError::NoMachine { rejected: state.rejected })?;
-        self.load(hash, role)
+        let (hash, role) = state.current().ok_or_else(|| StoreError::NoMachine { rejected: state.rejected.clone() })?;
+        self.load_again(hash, role, &state)
     }
 
     /// Receives one push from a stream and verifies it with the trusted `keys`. Then the machine becomes tentative.
@@ -103,6 +120,7 @@ impl Store {
         // The lock is taken after the stream was read, because a slow sender must not hold up the control program.
         let signed = SignedMachine::read_frame(from)?;
         let verified = keys.verify(signed)?;
+        self.check_robot(&verified)?;
         Ok(self.take(&verified)?)
     }
 
@@ -111,6 +129,10 @@ impl Store {
         let _lock = self.lock()?;
         let mut state = self.status()?;
         let hash = machine.hash();
+        // The good machine may be pushed again.
+        if state.good != Some(hash) {
+            check_counter(machine.claims(), &state)?;
+        }
         let signed = machine.signed();
         self.write(Folder::Machines, &file_name(hash, MACHINE_ENDING), signed.artifact())?;
         self.write(Folder::Machines, &file_name(hash, SIGNATURE_ENDING), signed.signature().as_bytes())?;
@@ -130,12 +152,13 @@ impl Store {
     pub fn begin_run(&self) -> Result<StoredMachine, StoreError> {
         let _lock = self.lock()?;
         let mut state = self.status()?;
+        let before = state.clone();
         if let Some(tentative) = &mut state.tentative {
             let hash = tentative.hash;
             let reason = if tentative.starts >= self.start_limit.get() {
                 format!("it was started ({} of {}) and not marked good", tentative.starts, self.start_limit)
             } else {
-                match self.load(hash, Role::Tentative) {
+                match self.load_again(hash, Role::Tentative, &before) {
                     Ok(machine) => {
                         tentative.starts += 1;
                         self.save(&state)?;
@@ -147,8 +170,8 @@ impl Store {
             state.reject(hash, &reason);
             self.save(&state)?;
         }
-        let hash = state.good.ok_or(StoreError::NoMachine { rejected: state.rejected })?;
-        self.load(hash, Role::Good)
+        let hash = state.good.ok_or_else(|| StoreError::NoMachine { rejected: state.rejected.clone() })?;
+        self.load_again(hash, Role::Good, &state)
     }
 
     /// Takes back a start of the tentative machine, because the run ended before the machine was executed.
@@ -164,7 +187,16 @@ impl Store {
     /// # Errors
     /// [`StoreError::NotTentative`] if the machine is neither, or the state cannot be read or written.
     pub fn mark_good(&self, hash: MachineHash) -> Result<(), StoreError> {
-        self.change(hash, |state| state.mark_good(hash))
+        // Without a counter of its own, the machine leaves the one of before.
+        let signed = self.signed(hash).ok();
+        let claims = signed.and_then(|signed| Claims::of(signed.unverified_comment()?).ok()).unwrap_or_default();
+        self.change(hash, |state| {
+            let is_marked = state.mark_good(hash);
+            if is_marked {
+                state.counter = state.counter.max(claims.counter);
+            }
+            is_marked
+        })
     }
 
     /// Gives the tentative machine up. The good machine returns. The status shows the reason.
@@ -196,6 +228,21 @@ impl Store {
         let signature = signature.map_err(|cause| unusable(format!("its signature cannot be read: {cause}")))?;
         let signature = String::from_utf8(signature).map_err(|_| unusable("its signature is not text".to_owned()))?;
         Ok(SignedMachine::new(artifact, signature))
+    }
+
+    /// Loads a machine, and verifies its signature again if the store has keys.
+    fn load_again(&self, hash: MachineHash, role: Role, state: &State) -> Result<StoredMachine, StoreError> {
+        if let Some(keys) = &self.keys {
+            let unusable = |cause: Refusal| StoreError::Unusable { hash, cause: cause.to_string() };
+            let verified = keys.verify(self.signed(hash)?).map_err(unusable)?;
+            self.check_robot(&verified).map_err(unusable)?;
+            check_counter(verified.claims(), state)?;
+        }
+        self.load(hash, role)
+    }
+
+    fn check_robot(&self, machine: &VerifiedMachine) -> Result<(), Refusal> {
+        self.robot.as_deref().map_or(Ok(()), |name| machine.claims().check_robot(name))
     }
 
     /// Reads a machine and verifies it again, because the disk may have damaged it.
@@ -257,6 +304,14 @@ impl Store {
     /// The path of a file, for messages.
     fn at(&self, folder: Folder, name: &str) -> PathBuf {
         self.path.join(folder.path()).join(name)
+    }
+}
+
+/// Returns an error for a machine that is older than the good one.
+fn check_counter(claims: &Claims, state: &State) -> Result<(), StoreError> {
+    match state.counter {
+        Some(least) if claims.counter < state.counter => Err(StoreError::RolledBack { found: claims.counter, least }),
+        _ => Ok(()),
     }
 }
 

@@ -73,6 +73,17 @@ pub enum StoreError {
         /// The last machine that was given up.
         rejected: Option<Rejection>,
     },
+    /// A machine is older than the good one.
+    #[error(
+        "the machine has {}, and the robot has had a good one with the counter {least}; sign the machine again with a larger \
+         one, such as `-t 'counter:{}'`", counter(*found), least.saturating_add(1)
+    )]
+    RolledBack {
+        /// The counter of the machine.
+        found: Option<u64>,
+        /// The least counter.
+        least: u64,
+    },
     /// A machine that is no longer tentative was to be marked good or given up.
     #[error(
         "the machine {hash} is not the tentative one, because another was pushed or it was given up; push it again to try it"
@@ -100,4 +111,8 @@ pub enum ReceiveError {
 
 fn after(rejected: Option<&Rejection>) -> String {
     rejected.map(|rejected| format!(", the last one was given up ({rejected})")).unwrap_or_default()
+}
+
+fn counter(found: Option<u64>) -> String {
+    found.map_or_else(|| "no counter".to_owned(), |counter| format!("the counter {counter}"))
 }

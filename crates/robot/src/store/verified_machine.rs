@@ -3,6 +3,7 @@
 use minisign_verify::{Error as MinisignError, Signature};
 use vibrissa_runtime::machine::{Artifact, ArtifactError, OnlySimulated};
 
+use super::claims::Claims;
 use super::keys::Keys;
 use super::machine_hash::MachineHash;
 use super::signed_machine::SignedMachine;
@@ -15,6 +16,7 @@ pub struct VerifiedMachine {
     artifact: Artifact,
     signer: String,
     trusted_comment: String,
+    claims: Claims,
 }
 
 /// The reason for which a machine is refused.
@@ -46,6 +48,24 @@ pub enum Refusal {
         "the signature is in the legacy format of minisign; sign the machine with `minisign -Sm FILE` without the option -l"
     )]
     Legacy,
+    /// A word of the trusted comment is no claim.
+    #[error(
+        "`{word}` in the trusted comment is not `robot:NAME` or `counter:N`, or occurs twice; sign the machine again"
+    )]
+    Claim {
+        /// The word.
+        word: String,
+    },
+    /// The machine was signed for another robot.
+    #[error(
+        "the machine was signed for the robot `{robot}`, and this one is `{name}`; sign it again with `-t 'robot:{name}'`"
+    )]
+    OtherRobot {
+        /// The robot of the trusted comment.
+        robot: String,
+        /// The name of this robot.
+        name: String,
+    },
     /// The signature is valid, but the content is not a machine that this program can run.
     #[error(transparent)]
     Artifact(#[from] ArtifactError),
@@ -60,7 +80,8 @@ impl VerifiedMachine {
         let (signer, trusted_comment) = verify_signature(&signed, keys)?;
         let artifact = Artifact::from_bytes(signed.artifact())?;
         artifact.program.check_for_robot()?;
-        Ok(Self { hash: signed.hash(), signed, artifact, signer, trusted_comment })
+        let claims = Claims::of(&trusted_comment)?;
+        Ok(Self { hash: signed.hash(), signed, artifact, signer, trusted_comment, claims })
     }
 
     /// The bytes of the artifact and the signature.
@@ -85,6 +106,12 @@ impl VerifiedMachine {
     #[must_use]
     pub fn signer(&self) -> &str {
         &self.signer
+    }
+
+    /// What the trusted comment says about the machine.
+    #[must_use]
+    pub fn claims(&self) -> &Claims {
+        &self.claims
     }
 
     /// The comment that the signature covers. By default, minisign writes the time and the name of the file into it.

@@ -6,6 +6,7 @@
     reason = "a test may panic, and it makes files that the store must refuse"
 )]
 
+mod claims;
 mod crash;
 mod damage;
 mod fixture;
