@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use vibrissa_robot::fault::FaultKind;
 use vibrissa_runtime::machine::Program;
 
-/// The configuration. It reads the journal of the system, where containers and the robot's own service write.
+/// The configuration. It reads the journal of the system, where containers and the robot's own service write. Without a
+/// `path`, that is `/run/log/journal`, where Raspberry Pi OS keeps it since May 2025, and `/var/log/journal`.
 pub(super) fn configuration(program: &Program, robot: &str) -> String {
     let faults = FaultKind::ALL.map(FaultKind::name).join("|");
     let states: BTreeSet<&str> = program.states.iter().map(|state| &*state.name).collect();
@@ -32,8 +33,8 @@ discovery.relabel "journal" {{
   }}
 }}
 
+// Without a path, it reads both folders of the journal: /run/log/journal and /var/log/journal.
 loki.source.journal "journal" {{
-  path          = "/var/log/journal"
   max_age       = "12h"
   relabel_rules = discovery.relabel.journal.rules
   labels        = {{robot = "{robot}"}}

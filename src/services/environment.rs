@@ -20,7 +20,8 @@ HTTP_BIND=127.0.0.1
 HTTP_PORT=8080
 
 # For the services of the robot itself (profiles `sensor-io` and `control`).
-VIBRISSA_ROBOT=/usr/bin/vibrissa-robot
+# The folder with the program `vibrissa-robot` for their image, and that of the configuration.
+VIBRISSA_PROGRAM=/usr/bin
 VIBRISSA_CONFIG=/etc/vibrissa
 "
     )

@@ -15,11 +15,12 @@ pub struct ServiceFile {
 }
 
 /// The files that are the same for every robot.
-const COPIES: [(&str, &str); 4] = [
+const COPIES: [(&str, &str); 5] = [
     ("compose.yaml", include_str!("../../deploy/compose.yaml")),
     ("services/mosquitto.conf", include_str!("../../deploy/services/mosquitto.conf")),
     ("services/loki.yaml", include_str!("../../deploy/services/loki.yaml")),
     ("services/traefik.yaml", include_str!("../../deploy/services/traefik.yaml")),
+    ("services/robot.Dockerfile", include_str!("../../deploy/services/robot.Dockerfile")),
 ];
 
 /// The files of the services for a robot with this configuration that runs this program.

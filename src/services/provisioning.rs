@@ -5,6 +5,9 @@ pub(super) const DATABASE: &str = "vibrissa-influxdb";
 /// Identifier of the logs in the dashboard.
 pub(super) const LOGS: &str = "vibrissa-loki";
 
+/// Identifier of the broker in the dashboard.
+pub(super) const BROKER: &str = "vibrissa-mqtt";
+
 /// The data sources.
 pub(super) fn data_sources() -> String {
     format!(
@@ -25,6 +28,11 @@ datasources:
     type: loki
     access: proxy
     url: http://loki:3100
+  - name: MQTT
+    uid: {BROKER}
+    type: grafana-mqtt-datasource
+    access: proxy
+    jsonData: {{uri: 'tcp://mosquitto:1883'}}
 "
     )
 }

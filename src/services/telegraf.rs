@@ -82,7 +82,7 @@ fn parser(text: &mut String, measurement: &Measurement) {
     if !measurement.tags.is_empty() {
         add!(text, "    [inputs.mqtt_consumer.xpath.tags]");
         for (name, path) in measurement.tags {
-            add!(text, "      {name} = \"{path}\"");
+            add!(text, "      {name} = \"{path}{NOT_NULL}\"");
         }
     }
     let (integers, others): (Vec<&Field>, Vec<&Field>) =
@@ -97,12 +97,16 @@ fn parser(text: &mut String, measurement: &Measurement) {
     }
 }
 
-/// The XPath query of a field. Without a conversion, Telegraf makes every value a text.
+/// Selects what is not `null`. Telegraf reads `null` as a text, and leaves out what a query does not select.
+const NOT_NULL: &str = "[. != 'null']";
+
+/// The XPath query of a field. Without a conversion, Telegraf makes every value a text. The number of a `null` is not a
+/// number, and Telegraf leaves it out.
 fn query(field: &Field) -> String {
     let path = field.path;
     match field.kind {
         FieldKind::Number | FieldKind::Integer => format!("number({path})"),
-        FieldKind::Text => format!("string({path})"),
+        FieldKind::Text => format!("{path}{NOT_NULL}"),
         FieldKind::Truth => format!("{path} = 'true'"),
         FieldKind::Count => format!("count({path})"),
     }
