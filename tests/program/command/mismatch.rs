@@ -320,3 +320,25 @@ fn whiskers_of_a_rat_run_without_inertia_and_mujoco_says_why_it_refuses_them() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("or write `world: quasistatic`"), "{}", stderr(&output));
 }
+
+#[test]
+fn a_third_of_the_readings_lost_gives_no_command_that_is_not_finite() {
+    let directory = directory("mismatch_lost");
+    // With two samples in a tick, every tenth tick of a whisker has no reading.
+    let scene = file(
+        &directory,
+        "scene.yaml",
+        "name: scene\nrig: {sensing: {sample_rate: 150 Hz, control_rate: 75 Hz}}\n\
+         objects: [{circle: {centre: [40 cm, 40 cm], radius: 30 cm}}]\n\
+         start: {position: [0 mm, 72 mm], heading: 90 deg}\nstop: {time: 20 s}\n",
+    );
+    for kind in ["nan", "missing"] {
+        let lost =
+            file(&directory, &format!("{kind}.yaml"), &format!("sensor:\n  lost: {{share: 30 %, kind: {kind}}}\n"));
+        let arguments = ["run", &scene, "--policy", "policies/vibrissa.fsm", "--world", "quasistatic", "--json"];
+        let output = vibrissa(&[&arguments[..], &["--mismatch", &lost, "--uncalibrated"]].concat());
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+        assert_eq!(results[0]["failsafes"]["count"], 0, "{kind}: {}", results[0]);
+        assert_ne!(results[0]["outcome"], "failed", "{kind}: {}", stderr(&output));
+    }
+}
