@@ -181,6 +181,8 @@ impl<'t> Reader<'t> {
                 let read = visitor.visit_map(Entries { entries: [].iter(), value: None });
                 read.map_err(|fault: Fault| fault.at(self.0.place))
             }
+            // A list has no keys.
+            Node::List(_) => Err(Fault::invalid_type(Unexpected::Seq, &visitor).at(self.0.place)),
             _ => self.any(visitor),
         }
     }
