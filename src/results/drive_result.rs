@@ -68,10 +68,9 @@ impl DriveResult {
         undetected: &[Injection],
     ) -> Self {
         let missed = Phase::ALL.iter().zip(missed).map(|(phase, count)| (phase.name().to_owned(), count));
-        let undetected = undetected.iter().map(|injection| UndetectedFault {
-            kind: injection.kind.expected().name().to_owned(),
-            part: injection.part,
-            at_s: injection.at_ms as f64 * 1e-3,
+        let undetected = undetected.iter().filter_map(|injection| {
+            let kind = injection.kind.expected()?.name().to_owned();
+            Some(UndetectedFault { kind, part: injection.part, at_s: injection.at_ms as f64 * 1e-3 })
         });
         let faults = fault_records(events, begun_ns);
         Self { run, faults, missed: missed.collect(), undetected: undetected.collect() }

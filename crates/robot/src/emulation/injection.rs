@@ -65,8 +65,9 @@ impl Injection {
         let from_ns = begun_ns.saturating_add(self.at_ms.saturating_mul(1_000_000));
         let until_ns = from_ns.saturating_add(self.for_ms.saturating_mul(1_000_000)).saturating_add(LATE_NS);
         let mut present_since = None;
-        for event in events.iter().filter(|event| event.fault.kind == self.kind.expected() && event.fault.part == part)
-        {
+        // A fault that the robot must bear leaves nothing to detect.
+        let Some(expected) = self.kind.expected() else { return true };
+        for event in events.iter().filter(|event| event.fault.kind == expected && event.fault.part == part) {
             match event.change {
                 FaultChange::Detected => present_since = Some(event.time_ns),
                 FaultChange::Recovered => {
@@ -195,7 +196,10 @@ impl InjectionKind {
     /// True if the fault happens at one moment. Its duration means nothing.
     #[must_use]
     pub fn is_momentary(self) -> bool {
-        matches!(self, Self::BrownOut | Self::ControlPanics | Self::MachineFails | Self::Terminate)
+        matches!(
+            self,
+            Self::BrownOut | Self::ControlPanics | Self::LocalisationRestarts | Self::MachineFails | Self::Terminate
+        )
     }
 
     /// True if the fault concerns the sensor of one whisker.
