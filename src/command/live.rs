@@ -2,12 +2,18 @@
 
 use std::ffi::OsString;
 use std::net::SocketAddr;
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::failure::Failure;
 use super::output;
+use crate::file::CommandFiles;
 use crate::live::{Live, LiveOptions, LiveWatcher, RunSetup};
+use crate::load;
+
+/// The environment variable with the token of a page.
+const TOKEN: &str = "VIBRISSA_LIVE_TOKEN";
 
 /// The options of a live page.
 #[derive(Debug, Args)]
@@ -16,9 +22,10 @@ pub(super) struct LivePage {
     /// 127.0.0.1 needs the token in the printed URL
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     live: Option<String>,
-    /// Token of the URL. By default, a random one where one is needed
-    #[arg(long, value_name = "TOKEN", requires = "live")]
-    live_token: Option<String>,
+    /// File with the token of the URL, at least 16 letters, digits, `-` and `_`. Without it, the environment variable
+    /// VIBRISSA_LIVE_TOKEN is used. By default, the token is a random one where one is needed
+    #[arg(long, value_name = "FILE", requires = "live")]
+    live_token_file: Option<PathBuf>,
     /// Simulated seconds per second, or `max`. By default, runs are as fast as reality, and replays as fast as possible
     #[arg(long, value_name = "N|max", requires = "live", value_parser = parse_speed)]
     live_speed: Option<Speed>,
@@ -62,7 +69,7 @@ impl LivePage {
         let Some(address) = &self.live else { return Ok(None) };
         let options = LiveOptions {
             address: Some(address.clone()).filter(|address| !address.is_empty()),
-            token: self.live_token.clone(),
+            token: self.token()?,
             breakpoints: breakpoints.to_vec(),
             is_paused: self.paused,
             speed: self.live_speed.unwrap_or(usual).ratio(),
@@ -70,6 +77,13 @@ impl LivePage {
         let live = Live::start(options)?;
         output::message(format_args!("live page: {}", live.url()));
         Ok(Some(live))
+    }
+
+    /// The token that the user gives. It is no option of its own, because every user of a machine can see the words of a command.
+    fn token(&self) -> Result<Option<String>, Failure> {
+        let Some(path) = &self.live_token_file else { return Ok(std::env::var(TOKEN).ok()) };
+        let source = load::read(path, &mut CommandFiles::new())?;
+        Ok(Some(source.text.trim().to_owned()))
     }
 }
 

@@ -21,11 +21,11 @@ pub enum LiveError {
     Address(String),
     /// The token cannot stand in a URL.
     #[error(
-        "a token has only letters, digits, `-` and `_`, and at least one of them; leave out --live-token to get a random one"
+        "a token of the live page has at least 16 letters, digits, `-` and `_`, and nothing else; without one, the program makes a random one"
     )]
     Token,
     /// The system has no random numbers.
-    #[error("the system gives no random numbers for a token ({0}); give one with --live-token")]
+    #[error("the system gives no random numbers for a token ({0}); give one with --live-token-file")]
     Random(String),
     /// The system starts no thread.
     #[error("the system starts no thread for the live page ({0}); end other programs, or run without --live")]

@@ -17,6 +17,7 @@ mod live;
 mod log;
 mod message;
 mod page;
+mod places;
 mod replay;
 mod request;
 mod sample_store;

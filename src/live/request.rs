@@ -92,7 +92,11 @@ impl Access {
     /// True if a host and its port name this server: by an IP address, or by `localhost` if only this machine is served.
     fn is_own(&self, host: &str) -> bool {
         let (name, port) = match host.rsplit_once(':') {
-            Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
+            Some((name, port)) if !port.ends_with(']') => {
+                // A number alone: a sign would be parsed too.
+                let is_number = !port.is_empty() && port.bytes().all(|byte| byte.is_ascii_digit());
+                (name, port.parse().ok().filter(|_| is_number))
+            }
             _ => (host, Some(80)),
         };
         let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
@@ -137,14 +141,14 @@ mod tests {
 
     #[test]
     fn a_token_is_needed_where_there_is_one() {
-        let access = access("0.0.0.0:8080", Some("t1"));
+        let access = access("0.0.0.0:8080", Some("t1-0123456789abc"));
         let status = |target| access.check(head(target, "192.168.1.2:8080", "").as_bytes());
-        assert_eq!(status("/?token=t1"), Ok(Request::Page));
-        assert_eq!(status("/?x=1&token=t1"), Ok(Request::Page));
-        for target in ["/", "/?token=", "/?token=t2", "/?token=t11", "/live"] {
+        assert_eq!(status("/?token=t1-0123456789abc"), Ok(Request::Page));
+        assert_eq!(status("/?x=1&token=t1-0123456789abc"), Ok(Request::Page));
+        for target in ["/", "/?token=", "/?token=t2-0123456789abc", "/?token=t1-0123456789abcd", "/live"] {
             assert_eq!(status(target), Err(NO_TOKEN), "{target}");
         }
-        assert_eq!(status("/other?token=t1"), Err(NO_PAGE));
+        assert_eq!(status("/other?token=t1-0123456789abc"), Err(NO_PAGE));
     }
 
     #[test]

@@ -3,9 +3,8 @@
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tungstenite::handshake::derive_accept_key;
 use tungstenite::protocol::{Role, WebSocket, WebSocketConfig};
@@ -16,11 +15,10 @@ use super::foxglove::{PROTOCOLS, serve_viewer};
 use super::hub::Hub;
 use super::message::PROTOCOL;
 use super::page::{POLICY, page};
+use super::places::Places;
 use super::request::{Access, HEAD_LIMIT, Refused, Request};
 
-/// The largest number of connections at a time.
-const CONNECTIONS: usize = 64;
-/// A request has to arrive within this time.
+/// The head of a request has to arrive as a whole within this time.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(5);
 /// The longest message of a page (bytes).
 const MESSAGE_LIMIT: usize = 1 << 20;
@@ -36,22 +34,17 @@ pub(super) fn serve(
     let bound = listener.local_addr().map_err(listen)?;
     let (access, hub) = (Arc::new(access(bound)), Arc::clone(hub));
     let accept = move || {
-        let open = Arc::new(AtomicUsize::new(0));
+        let places = Arc::new(Places::default());
         for stream in listener.incoming().flatten() {
-            let (access, hub, counted) = (Arc::clone(&access), Arc::clone(&hub), Arc::clone(&open));
-            if open.fetch_add(1, Ordering::AcqRel) >= CONNECTIONS {
-                open.fetch_sub(1, Ordering::AcqRel);
-                let busy = Refused("503 Service Unavailable", "too many pages are open; close some of them");
-                let _ = refuse(stream, busy);
-                continue;
-            }
+            let Ok(number) = places.begin(&stream) else { continue };
+            let (access, hub, held) = (Arc::clone(&access), Arc::clone(&hub), Arc::clone(&places));
             let connection = move || {
                 // A connection that breaks ends its thread alone.
-                let _ = connect(stream, &access, &hub);
-                counted.fetch_sub(1, Ordering::AcqRel);
+                let _ = connect(stream, number, &access, &hub, &held);
+                held.end(number);
             };
             if thread::Builder::new().name("live connection".to_owned()).spawn(connection).is_err() {
-                open.fetch_sub(1, Ordering::AcqRel);
+                places.end(number);
             }
         }
     };
@@ -60,13 +53,35 @@ pub(super) fn serve(
 }
 
 /// Answers one connection.
-fn connect(mut stream: TcpStream, access: &Access, hub: &Arc<Hub>) -> std::io::Result<()> {
-    stream.set_read_timeout(Some(REQUEST_TIMEOUT))?;
+fn connect(
+    mut stream: TcpStream,
+    number: u64,
+    access: &Access,
+    hub: &Arc<Hub>,
+    places: &Places,
+) -> std::io::Result<()> {
     stream.set_write_timeout(Some(REQUEST_TIMEOUT))?;
-    let head = head(&mut stream)?;
-    match access.check(&head) {
+    let head = head(&mut stream, Instant::now() + REQUEST_TIMEOUT)?;
+    stream.set_read_timeout(Some(REQUEST_TIMEOUT))?;
+    let request = access.check(&head);
+    places.end(number);
+    match request {
         Err(refused) => refuse(stream, refused),
-        Ok(Request::Page) => {
+        Ok(_) if !places.admit() => {
+            refuse(stream, Refused("503 Service Unavailable", "too many pages are open; close some of them"))
+        }
+        Ok(request) => {
+            let answered = answer(stream, request, hub);
+            places.leave();
+            answered
+        }
+    }
+}
+
+/// Answers a request that is permitted.
+fn answer(mut stream: TcpStream, request: Request, hub: &Arc<Hub>) -> std::io::Result<()> {
+    match request {
+        Request::Page => {
             let page = page();
             let security =
                 "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n";
@@ -78,7 +93,7 @@ fn connect(mut stream: TcpStream, access: &Access, hub: &Arc<Hub>) -> std::io::R
             stream.write_all(head.as_bytes())?;
             stream.write_all(page.as_bytes())
         }
-        Ok(Request::Socket { key, protocols }) => {
+        Request::Socket { key, protocols } => {
             let known = |protocol: &&String| *protocol == PROTOCOL || PROTOCOLS.contains(&protocol.as_str());
             let Some(protocol) = protocols.iter().find(known) else {
                 let advice = "the stream speaks vibrissa.live.v1, foxglove.sdk.v1 and foxglove.websocket.v1; ask for one of them";
@@ -103,10 +118,16 @@ fn connect(mut stream: TcpStream, access: &Access, hub: &Arc<Hub>) -> std::io::R
     }
 }
 
-/// Reads the head of a request. It may be cut off at the limit, and is then refused.
-fn head(stream: &mut TcpStream) -> std::io::Result<Vec<u8>> {
+/// Reads the head of a request. It may be cut off at the limit, and is then refused. One deadline holds for the whole head, so that
+/// single bytes do not prolong it.
+fn head(stream: &mut TcpStream, deadline: Instant) -> std::io::Result<Vec<u8>> {
     let (mut head, mut part) = (Vec::new(), [0; 2048]);
     while !head.windows(4).any(|end| end == b"\r\n\r\n") && head.len() < HEAD_LIMIT {
+        let left = deadline.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            return Err(std::io::ErrorKind::TimedOut.into());
+        }
+        stream.set_read_timeout(Some(left))?;
         let count = stream.read(&mut part)?;
         if count == 0 {
             break;
@@ -123,4 +144,27 @@ fn refuse(mut stream: TcpStream, Refused(status, advice): Refused) -> std::io::R
         "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {length}\r\nConnection: close\r\n\r\n{advice}\n"
     );
     stream.write_all(answer.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn single_bytes_do_not_prolong_the_deadline_of_a_head() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let mut sender = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let (mut stream, _) = listener.accept().unwrap();
+        // It ends when the other side is closed.
+        let sending = thread::spawn(move || {
+            while sender.write_all(b"G").is_ok() {
+                thread::sleep(Duration::from_millis(20));
+            }
+        });
+        let deadline = Instant::now() + Duration::from_millis(200);
+        assert!(head(&mut stream, deadline).is_err());
+        assert!(Instant::now() >= deadline);
+        drop(stream);
+        sending.join().unwrap();
+    }
 }

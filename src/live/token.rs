@@ -7,6 +7,9 @@ use super::error::LiveError;
 /// Number of random bytes of a generated token.
 const LENGTH: usize = 16;
 
+/// The smallest number of characters of a token that a user gives.
+const SHORTEST: usize = 16;
+
 /// A token.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Token(String);
@@ -25,10 +28,10 @@ impl Token {
     /// The token that a user gives. It stands in a URL.
     ///
     /// # Errors
-    /// [`LiveError::Token`] if it is empty or has other characters than letters, digits, `-` and `_`.
+    /// [`LiveError::Token`] if it is shorter than [`SHORTEST`] or has other characters than letters, digits, `-` and `_`.
     pub(super) fn given(text: &str) -> Result<Self, LiveError> {
         let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
-        if text.is_empty() || !text.bytes().all(is_plain) {
+        if text.len() < SHORTEST || !text.bytes().all(is_plain) {
             return Err(LiveError::Token);
         }
         Ok(Self(text.to_owned()))
@@ -54,10 +57,12 @@ mod tests {
 
     #[test]
     fn a_token_is_equal_to_itself_alone() {
-        let token = Token::given("abc-1").unwrap();
-        assert!(token.is("abc-1"));
-        assert!(["", "abc-", "abc-12", "abc-2", "xbc-1"].iter().all(|other| !token.is(other)));
-        assert!(["", "a b", "a&b", "ä"].iter().all(|text| Token::given(text).is_err()));
+        let token = Token::given("abc-0123456789-1").unwrap();
+        assert!(token.is("abc-0123456789-1"));
+        let others = ["", "abc-", "abc-0123456789-12", "abc-0123456789-2", "xbc-0123456789-1"];
+        assert!(others.iter().all(|other| !token.is(other)));
+        let refused = ["", "a", "abc-0123456789-", "a b-0123456789-1", "a&b-0123456789-1", "äbc-0123456789-1"];
+        assert!(refused.iter().all(|text| Token::given(text).is_err()));
         assert_ne!(Token::random().unwrap(), Token::random().unwrap());
     }
 }
