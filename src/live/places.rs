@@ -1,4 +1,4 @@
-//! The places for connections.
+//! The connections that are open.
 
 use std::collections::VecDeque;
 use std::io;
@@ -11,7 +11,7 @@ const WAITING: usize = 64;
 /// The largest number of connections with a permitted request.
 const VIEWERS: usize = 64;
 
-/// The places for connections. Those whose request has not arrived, which may come from anybody, take no place of a permitted one.
+/// The connections that are open. Those whose request has not arrived, which may come from anybody, do not count as permitted ones.
 #[derive(Debug, Default)]
 pub(super) struct Places {
     waiting: Mutex<Waiting>,

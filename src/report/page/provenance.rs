@@ -7,7 +7,7 @@ use crate::results::{CalibrationKind, JitterRecord, MismatchRecord, Provenance, 
 /// Number of scenes that a title names.
 const SCENES_NAMED: usize = 3;
 
-/// A short text by which pages of different runs can be told apart: policies, scenes, simulators, seeds and mismatches.
+/// A short text by which pages of different runs differ: policies, scenes, simulators, seeds and mismatches.
 pub(super) fn subject(provenance: &Provenance) -> String {
     let Provenance { policies, scenes, simulators, seeds, mismatches, .. } = provenance;
     let scenes = if scenes.len() > SCENES_NAMED { format!("{} scenes", scenes.len()) } else { scenes.join(", ") };

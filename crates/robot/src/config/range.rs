@@ -69,7 +69,7 @@ fn numbers(config: &Config) -> Vec<Number> {
     add(&mut numbers, "timeouts", [(settle, SETTLE)]);
     let PoseConfig { latency, noise, heading_noise, .. } = config.pose;
     add(&mut numbers, "pose", [(latency, LATENCY), (noise, POSE_NOISE), (heading_noise, HEADING_NOISE)]);
-    sensor_codes(&mut numbers, &config.sensor);
+    sensor_codes(&mut numbers, config.sensor);
     for (index, BusConfig { clock, boards, .. }) in config.buses.iter().enumerate() {
         add(&mut numbers, &format!("buses.{index}"), [(*clock, CLOCK)]);
         for (board, entry) in boards.iter().enumerate() {
@@ -152,9 +152,9 @@ fn whisker_numbers(numbers: &mut Vec<Number>, entry: &Whisker) {
     );
 }
 
-fn sensor_codes(numbers: &mut Vec<Number>, sensor: &SensorConfig) {
+fn sensor_codes(numbers: &mut Vec<Number>, sensor: SensorConfig) {
     let code = |name, greatest, example| Key::new(name, Dimension::NUMBER, (0.0, greatest), example);
-    let SensorConfig { oversampling, filter, gain, resolution } = *sensor;
+    let SensorConfig { oversampling, filter, gain, resolution } = sensor;
     add(
         numbers,
         "sensor",

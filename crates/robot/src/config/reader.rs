@@ -145,7 +145,7 @@ fn words(found: Unexpected<'_>) -> String {
 #[derive(Clone, Copy)]
 struct Reader<'t>(&'t Placed<Node>);
 
-impl<'t> Reader<'t> {
+impl Reader<'_> {
     fn text<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         let read = match &self.0.value {
             Node::Text(text) => visitor.visit_str(text),

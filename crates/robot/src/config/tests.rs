@@ -1,6 +1,6 @@
 //! What a configuration is refused for, and at which place.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test may panic and write files")]
 
 use super::*;
 

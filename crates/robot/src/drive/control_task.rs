@@ -201,13 +201,12 @@ impl ControlTask {
                 self.outputs.records.send(&LoopRecord::Round(round));
                 for (whisker, counts) in self.assembler.counts(&round) {
                     let Some(counts) = counts else { continue };
-                    match &mut self.zeroing {
-                        Some(zeroing) => zeroing.take(whisker, counts),
-                        None => {
-                            let values = self.assembler.values(whisker, counts);
-                            let is_finite = values.is_none_or(|(_, base_angle)| base_angle.is_finite());
-                            self.vitals.angle_taken(whisker, is_finite);
-                        }
+                    if let Some(zeroing) = &mut self.zeroing {
+                        zeroing.take(whisker, counts);
+                    } else {
+                        let values = self.assembler.values(whisker, counts);
+                        let is_finite = values.is_none_or(|(_, base_angle)| base_angle.is_finite());
+                        self.vitals.angle_taken(whisker, is_finite);
                     }
                 }
                 self.assembler.take(&round);

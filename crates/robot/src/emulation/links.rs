@@ -17,7 +17,7 @@ const DISPLACEMENT: f64 = 10.0;
 const LATE_NS: u64 = 200_000_000;
 /// Numbers by which a packet is ahead that has not been sent.
 const AHEAD: u64 = 1000;
-/// Acknowledgements on their way: more than those of a delay.
+/// Acknowledgements that have not arrived: more than those of a delay.
 const ANSWERS: usize = 64;
 /// Addresses of the localisation, and of somebody else.
 const LOCALISATION: SocketAddr = SocketAddr::new(std::net::IpAddr::V4(Ipv4Addr::new(192, 168, 1, 20)), 9752);
@@ -31,7 +31,7 @@ pub(super) struct Links {
     /// Sequence number of the last pose.
     pose_number: u64,
     acknowledgements: Acknowledgements,
-    /// Acknowledgements on their way: time of arrival (ns) and number.
+    /// Acknowledgements that have not arrived: time of arrival (ns) and number.
     answers: VecDeque<(u64, u64)>,
     /// The first of the two packets that the actuator acknowledges in turn.
     repeated: Option<u64>,

@@ -70,7 +70,7 @@ mod tests {
 
     const TIMEOUT: u64 = 60;
 
-    /// The places of packets, one every 10 ns.
+    /// The order of packets, one every 10 ns.
     fn places(numbers: impl IntoIterator<Item = u64>) -> Vec<Place> {
         let mut order = Order::new(TIMEOUT);
         (0..).step_by(10).zip(numbers).map(|(now_ns, number)| order.place(number, now_ns)).collect()
