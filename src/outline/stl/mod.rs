@@ -12,6 +12,9 @@ use super::transform::Transform;
 use super::{MAX_PIECES, OutlineError, OutlineFault, ReadOptions, TOLERANCE};
 use triangle::Triangle;
 
+/// The marks at the beginning of texts with two bytes for a letter.
+const UTF_16: [[u8; 2]; 2] = [[0xFF, 0xFE], [0xFE, 0xFF]];
+
 /// The largest number of triangle sides in the plane, before collinear ones are merged.
 const MAX_SIDES: usize = 2 * MAX_PIECES;
 
@@ -19,7 +22,12 @@ const MAX_SIDES: usize = 2 * MAX_PIECES;
 /// surface and are joined.
 pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outline>, OutlineError> {
     let unit = options.unit.ok_or(OutlineFault::NoUnit)?;
-    let is_text = !binary::is_binary(bytes) && text::is_text(bytes);
+    let is_binary = binary::is_binary(bytes);
+    if !is_binary && UTF_16.iter().any(|mark| bytes.starts_with(mark)) {
+        let reason = "it is a text in UTF-16; save it as ASCII or UTF-8".to_owned();
+        return Err(OutlineFault::Syntax { reason }.into());
+    }
+    let is_text = !is_binary && text::is_text(bytes);
     let solids = if is_text { text::read(bytes)? } else { vec![binary::read(bytes)?] };
     let mut cut = Cut {
         plane: Transform::scaled(unit),

@@ -7,10 +7,16 @@ use super::triangle::{Solid, Triangle};
 /// What a comment begins with. The format has none, but some programs write them.
 const COMMENTS: [&str; 3] = ["#", ";", "//"];
 
-/// True if a file is a text: it has no byte of zero but at its end, and its first word is `solid`, in any case.
+/// What no binary file has.
+const VERTEX: &[u8] = b"vertex";
+
+/// True if a file is a text: its first word is `solid`, in any case. A binary file may begin so too, but it has bytes of zero and no
+/// `vertex`.
 pub(super) fn is_text(bytes: &[u8]) -> bool {
     let text = without_padding(bytes);
-    !text.contains(&0) && words(&String::from_utf8_lossy(text)).next().is_some_and(|word| word.begins("solid"))
+    let begins = || words(&String::from_utf8_lossy(text)).next().is_some_and(|word| word.begins("solid"));
+    let has_vertex = || text.windows(VERTEX.len()).any(|word| word.eq_ignore_ascii_case(VERTEX));
+    (!text.contains(&0) || has_vertex()) && begins()
 }
 
 /// Reads all solids.

@@ -11,6 +11,9 @@ use super::super::OutlineFault;
 const MAX_COMPARISONS: usize = 5_000_000;
 const BYTES_PER_COMPARISON: usize = 16;
 
+/// The largest number of selectors in all style sheets. Drawings have a few dozen.
+const MAX_SELECTORS: usize = 10_000;
+
 /// The style sheets of a document.
 #[derive(Debug, Default)]
 pub(super) struct Styles {
@@ -144,6 +147,9 @@ impl Styles {
                 let selector = Selector::parse(selector)
                     .ok_or_else(|| unsupported(&format!("a style sheet with the selector `{shown}`")))?;
                 self.rules.push(Rule { selector, block: self.blocks.len() });
+                if self.rules.len() > MAX_SELECTORS {
+                    return Err(OutlineFault::TooLarge { what: "selectors in style sheets", limit: MAX_SELECTORS });
+                }
             }
             self.blocks.push(declarations.to_owned());
             rest = next;

@@ -34,6 +34,23 @@ fn the_page_shows_an_object_that_can_be_read() {
     assert_eq!(scene.solids.len(), 1);
 }
 
+#[test]
+fn a_scenario_says_what_is_done_with_a_hole() {
+    let plate = "<svg><rect width='50' height='60'/><circle cx='20' cy='20' r='3'/></svg>";
+    let read = |holes: &str| {
+        let objects = format!("[{{outline: {{file: plate.svg, unit: 1 mm{holes}}}}}]");
+        let rest = "start: {position: [-1 m, 72 mm], heading: 90 deg}\nstop: {time: 1 s}";
+        let text = format!("name: plate\nobjects: {objects}\n{rest}\n");
+        scenario::read_with(&Source::new("plate.yaml", text), &mut |_| Ok(plate.as_bytes().to_vec()))
+    };
+    let scene = read(", holes: ignore").unwrap();
+    assert!(scene.solids.len() == 1 && (scene.solids[0].outline().area() - 0.003).abs() < 1e-12);
+    for refused in ["", ", holes: refuse"] {
+        assert!(read(refused).unwrap_err()[0].primary.text.contains("inside another"));
+    }
+    assert!(read(", holes: ignored").is_err_and(|faults| faults[0].hints[0] == "did you mean `ignore`?"));
+}
+
 /// A box as a mesh, from one corner (mm) to the opposite one.
 fn mesh(from: [f64; 3], to: [f64; 3]) -> String {
     let corner = |index: usize| (0..3).map(move |axis| if index >> axis & 1 == 0 { from[axis] } else { to[axis] });

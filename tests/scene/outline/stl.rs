@@ -150,6 +150,7 @@ fn a_text_is_read_however_its_lines_and_words_are_written() {
         text.replacen("solid part\n", "# written by hand\n\n  solid part, of facet 3\n// no normals\n", 1),
         text.replace(" 0 0 0", " +0.0 -0.0e+00 0E0"),
         format!("{text}\0\0\0"),
+        text.replacen("solid part", "solid part\0\0", 1),
     ] {
         assert_eq!(areas(&same).unwrap(), [5000.0], "{}", &same[..90]);
     }
@@ -169,6 +170,7 @@ fn a_text_that_is_not_complete_is_refused_at_its_line() {
     assert_eq!(line(&text.replacen("vertex 0 0 0", "vertex 0 0", 1)), Some(5));
     assert_eq!(line(&text.replacen("vertex 0 0 0", "vertex 0 0,5 0", 1)), Some(4));
     assert_eq!(line(&text.replacen("vertex 0 0 0", "vertex 0 nan 0", 1)), Some(2));
+    assert_eq!(line(&text.replacen("vertex 0 0 0", "vertex 0 \0 0", 1)), Some(4));
     assert_eq!(line(&text.replacen("endloop", "vertex 0 0 0\nendloop", 1)), Some(7));
     assert_eq!(line(&format!("{text}facet normal 0 0 0\n")), Some(87));
     assert_eq!(
@@ -192,6 +194,8 @@ fn a_binary_file_has_as_many_triangles_as_it_says() {
         let error = cut(&wrong, 0.01).unwrap_err().to_string();
         assert!(error.contains("the number of triangles is"), "{error}");
     }
+    let wide: Vec<u8> = "\u{feff}solid part\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert!(cut(&wide, 0.01).unwrap_err().to_string().contains("UTF-16"));
     let error = cut(b"a text of another program", 0.01).unwrap_err().to_string();
     assert!(error.contains("it is no STL"), "{error}");
 }

@@ -265,6 +265,7 @@ fn a_style_sheet_holds_for_the_elements_that_it_names() {
         format!("<style>{rules}</style>{}", "<g/>".repeat(10_000)),
         format!("<style>{}a {{ fill: none }}</style><g class='{}'/>", ".a,".repeat(1000), "b ".repeat(100_000)),
         format!("<style>.a {{ {long} }}</style>{}", "<g class='a'/>".repeat(1000)),
+        format!("<style>{}a {{ fill: none }}</style>", "a,".repeat(10_000)),
     ] {
         assert!(matches!(all(&crowd, &MILLIMETRES).unwrap_err().fault, OutlineFault::TooLarge { .. }));
     }
