@@ -165,6 +165,8 @@ pub(super) enum Failure {
     #[cfg(not(feature = "lsp"))]
     #[error("this build has no language server; build it with one: cargo build --release --features lsp")]
     NoLsp,
+    #[error("a statechart cannot be written as `{}`; end the name in .svg, .mmd or .dot, or give --format", .0.display())]
+    ChartFile(PathBuf),
     #[error("{}: {cause}", policy.display())]
     Chart { policy: PathBuf, cause: ChartTooLarge },
     #[error("{}: {cause}", policy.display())]

@@ -1,6 +1,6 @@
 //! `vibrissa graph`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -22,9 +22,9 @@ pub(super) struct GraphArguments {
     /// Policy file
     #[arg(value_name = "POLICY")]
     policy: PathBuf,
-    /// Format of the statechart
-    #[arg(long, value_enum, default_value_t = ChartFormat::Svg)]
-    format: ChartFormat,
+    /// Format of the statechart. By default, it follows from the ending of --out: .svg, .mmd or .dot
+    #[arg(long, value_enum)]
+    format: Option<ChartFormat>,
     /// Show N levels of states, from 1 to 8. Transitions of hidden states are drawn at the outer state that is shown
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_depth)]
     depth: Option<usize>,
@@ -47,16 +47,30 @@ enum ChartFormat {
     Dot,
 }
 
+impl ChartFormat {
+    /// The format that the ending of a file names. A file without an ending, or standard output, gets a picture.
+    fn of(path: Option<&Path>) -> Result<Self, Failure> {
+        let Some(path) = path else { return Ok(Self::Svg) };
+        match path.extension().and_then(|ending| ending.to_str()) {
+            None | Some("svg") => Ok(Self::Svg),
+            Some("mmd" | "md") => Ok(Self::Mermaid),
+            Some("dot" | "gv") => Ok(Self::Dot),
+            Some(_) => Err(Failure::ChartFile(path.to_owned())),
+        }
+    }
+}
+
 /// A picture of as many states, some of them nested, is wider than a screen.
 const MANY_STATES: usize = 20;
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
+    let format = arguments.format.map_or_else(|| ChartFormat::of(arguments.out.as_deref()), Ok)?;
     let view = View { state: arguments.state.as_deref(), depth: arguments.depth };
     let mut files = CommandFiles::new();
     let whole = load::chart(&arguments.policy, &mut files)?;
     let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;
     let chart = whole.view(view).map_err(|cause| Failure::View { policy: arguments.policy.clone(), cause })?;
-    let text = match arguments.format {
+    let text = match format {
         ChartFormat::Svg => {
             chart_svg(&chart).map_err(|cause| Failure::Chart { policy: arguments.policy.clone(), cause })?
         }

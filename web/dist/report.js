@@ -353,8 +353,13 @@
     const [head, ...rows] = Array.from(table.rows);
     return { headings: texts(head), rows: rows.map(texts) };
   }
+  var FIGURE = /^[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?: ± \d+(?:\.\d+)?(?:e[+-]?\d+)?)?(?: [%°µ\p{L}/]+)?$/iu;
+  function inert(text) {
+    return /^[=+\-@\t\r]/.test(text) && !FIGURE.test(text) ? `'${text}` : text;
+  }
   function csv({ headings, rows }) {
-    const cell = (text) => /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+    const quoted = (text) => /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+    const cell = (text) => quoted(inert(text));
     return [headings, ...rows].map((row) => row.map(cell).join(",") + "\r\n").join("");
   }
   var LATEX = {

@@ -1,16 +1,17 @@
-// Properties of the parts of the live page that need no browser: `node test/units.mjs`.
+// Properties of the parts of the pages that need no browser: `node test/units.mjs`.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import test from "node:test";
 import { build } from "esbuild";
 
-/** A module of the page. */
-async function load(name) {
-  const { outputFiles } = await build({ entryPoints: [`src/live/${name}.ts`], bundle: true, format: "esm", write: false });
+/** A module of a page. */
+async function load(name, page = "live") {
+  const { outputFiles } = await build({ entryPoints: [`src/${page}/${name}.ts`], bundle: true, format: "esm", write: false });
   return import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`);
 }
 
-const [{ Run }, { layOut }, { quantity }] = await Promise.all(["run", "layout", "quantity"].map(load));
+const [{ Run }, { layOut }, { quantity }] = await Promise.all(["run", "layout", "quantity"].map((name) => load(name)));
+const { csv } = await load("cells", "report");
 const example = JSON.parse(await readFile("test/live-example.json", "utf8"));
 const hello = example.find(({ type }) => type === "hello");
 const [pattern] = example.find(({ type }) => type === "ticks").frames;
@@ -88,5 +89,15 @@ test("quantities have prefixes and three digits", () => {
   const cases = [[0.00054, "rad", "540 urad"], [0.05, "m/s", "50 mm/s"], [Math.PI / 6, "rad", "30 deg"], [-Math.PI / 3, "rad/s", "-60 deg/s"], [-0.0123456, "m", "-12.3 mm"], [0, "s", "0 s"], [12.345, "s", "12.3 s"], [30, "", "30"], [0.002, "m^2", "0.002 m^2"], [0.5, "1/m", "0.5 1/m"], [0.128, "", "0.128"], [0.0009999, "m", "1 mm"]];
   for (const [value, unit, text] of cases) {
     assert.equal(quantity(value, unit), text);
+  }
+});
+
+test("no cell of an exported table is evaluated by a spreadsheet, and figures stay as they are", () => {
+  for (const text of ["=cmd|' /C calc'!A0", "+1+cmd", "-2+3", "@SUM(A1)", "\t=1", "-x", "=1", "+", "-0.5 mm=1"]) {
+    const cell = csv({ headings: [text], rows: [] }).trimEnd().replace(/^"|"$/g, "");
+    assert.ok(cell.startsWith("'"), JSON.stringify(cell));
+  }
+  for (const text of ["-0.5", "+0.4 ± 0.24", "-12.5 %", "+3", "-1e-5", "-0.5 mm", "0.031 ± 0.002", "disk"]) {
+    assert.equal(csv({ headings: [text], rows: [] }), `${text}\r\n`);
   }
 });

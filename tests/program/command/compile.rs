@@ -91,3 +91,31 @@ fn what_cannot_be_compiled_or_is_no_sound_machine_is_refused() {
     }
     assert_eq!(std::fs::read(&cut).unwrap().len(), bytes.len() - 1, "nothing is written that is at fault");
 }
+
+#[test]
+fn the_ending_of_a_file_decides_the_format_of_a_statechart() {
+    let folder = directory("chart_files");
+    let graph = |name: &str, more: &[&str]| {
+        let path = folder.join(name);
+        let arguments = ["graph", "policies/bang.fsm", "-o", path.to_str().unwrap()];
+        let output = vibrissa(&[&arguments, more].concat());
+        (output.status.code(), std::fs::read_to_string(&path).unwrap_or_default(), stderr(&output))
+    };
+    for (name, more, begin) in [
+        ("a.svg", &[][..], "<svg"),
+        ("chart", &[], "<svg"),
+        ("a.dot", &[], "digraph"),
+        ("a.gv", &[], "digraph"),
+        ("a.mmd", &[], "stateDiagram"),
+        ("a.txt", &["--format", "dot"], "digraph"),
+    ] {
+        let (status, text, message) = graph(name, more);
+        assert_eq!(status, Some(0), "{name}: {message}");
+        assert!(text.contains(begin), "{name}: {text}");
+    }
+    for name in ["m.png", "m.pdf", "m.SVG"] {
+        let (status, text, message) = graph(name, &[]);
+        assert_eq!((status, text.as_str()), (Some(2), ""), "{name}");
+        assert!(message.contains(name) && message.contains(".svg, .mmd or .dot"), "{message}");
+    }
+}

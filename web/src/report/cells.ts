@@ -33,9 +33,18 @@ export function cellsOf(table: HTMLTableElement): Cells {
   return { headings: texts(head), rows: rows.map(texts) };
 }
 
+/** A figure with its sign, deviation and unit. A spreadsheet takes any other text that begins with a sign for a formula. */
+const FIGURE = /^[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?: ± \d+(?:\.\d+)?(?:e[+-]?\d+)?)?(?: [%°µ\p{L}/]+)?$/iu;
+
+/** The text of a cell that no spreadsheet evaluates: a quote stands before what would begin a formula. */
+function inert(text: string): string {
+  return /^[=+\-@\t\r]/.test(text) && !FIGURE.test(text) ? `'${text}` : text;
+}
+
 /** The table as comma-separated values (RFC 4180). */
 export function csv({ headings, rows }: Cells): string {
-  const cell = (text: string): string => (/[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  const quoted = (text: string): string => (/[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  const cell = (text: string): string => quoted(inert(text));
   return [headings, ...rows].map((row) => row.map(cell).join(",") + "\r\n").join("");
 }
 
