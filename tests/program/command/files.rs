@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::calibrate::{CONFIG, TOUCHES, counts, sets};
-use super::program::{directory, stderr, stdout, vibrissa};
+use super::program::{directory, stderr, stdout, vibrissa, without_origin};
 
 const LIBRARY: &str = "library laws\nlet still(w: whisker) = not w.touching\n";
 const POLICY: &str = "machine quick\nuse \"laws.fsm\" (still)\n\
@@ -204,7 +204,7 @@ fn merge_follows_a_link_to_results_and_says_why_others_will_not_do() {
     assert_eq!(merge("").0, Some(0));
     // A sweep adds its results as runs end.
     let [merged, done] = ["merged.jsonl", "done/results.jsonl"].map(|name| {
-        let mut lines: Vec<String> = text(&folder, name).lines().map(str::to_owned).collect();
+        let mut lines: Vec<String> = without_origin(&text(&folder, name)).lines().map(str::to_owned).collect();
         lines.sort();
         lines
     });

@@ -181,8 +181,9 @@ fn a_process_for_runs_that_is_killed_costs_nothing_and_none_outlives_the_sweep()
     // One that has ended may be waiting for somebody to ask how.
     let is_gone = |worker: &u32| stat(worker).is_empty() || stat(worker).contains(") Z ");
     wait_for("end of the worker", || workers.iter().all(is_gone));
-    let is_completed = |line: &String| line.contains(r#""outcome":"completed""#);
-    assert!(lines(&results).iter().skip(1).all(is_completed));
+    // Each has run to its end, which is too early to meet the expectations of the scene.
+    let has_ended = |line: &String| line.contains(r#""outcome":"ended""#);
+    assert!(lines(&results).iter().skip(1).all(has_ended));
 }
 
 #[test]
@@ -237,7 +238,7 @@ fn the_world_can_vary_and_is_that_of_the_result() {
     assert_eq!(results.len(), 2 * worlds.len());
     for result in &results {
         assert_eq!(result["world"], result["settings"]["world"], "{result}");
-        assert_eq!(result["outcome"], "completed");
+        assert_eq!(result["outcome"], "ended", "one second is too short for the expectations");
     }
 }
 

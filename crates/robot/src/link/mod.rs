@@ -30,9 +30,11 @@ pub use mqtt_actuator::MqttActuator;
 pub(crate) use mqtt_link::{MqttLink, PACKET_BYTES};
 #[cfg(feature = "mqtt")]
 pub use mqtt_poses::MqttPoses;
+#[cfg(all(feature = "mqtt", feature = "recording"))]
 pub(crate) use order::{Order, Place};
 pub use pose_gate::PoseGate;
 pub use pose_packet::PosePacket;
 pub use received_pose::ReceivedPose;
+#[cfg(all(feature = "mqtt", feature = "recording"))]
 pub(crate) use sender_clock::SenderClock;
 pub use udp::{UdpActuator, UdpPoses};
