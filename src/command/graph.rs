@@ -64,11 +64,11 @@ impl ChartFormat {
 const MANY_STATES: usize = 20;
 
 pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
-    let format = arguments.format.map_or_else(|| ChartFormat::of(arguments.out.as_deref()), Ok)?;
     let view = View { state: arguments.state.as_deref(), depth: arguments.depth };
     let mut files = CommandFiles::new();
     let whole = load::chart(&arguments.policy, &mut files)?;
     let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;
+    let format = arguments.format.map_or_else(|| ChartFormat::of(arguments.out.as_deref()), Ok)?;
     let chart = whole.view(view).map_err(|cause| Failure::View { policy: arguments.policy.clone(), cause })?;
     let text = match format {
         ChartFormat::Svg => {

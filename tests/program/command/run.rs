@@ -84,7 +84,7 @@ mod with_simulation {
     }
 
     /// The keys of a result.
-    const KEYS: [&str; 101] = [
+    const KEYS: [&str; 104] = [
         "passed_but_for_tips",
         "violations",
         "whiskers",

@@ -27,6 +27,8 @@ fn scene(name: &str, time: f64) -> Scene {
     let file = SCENARIOS.iter().find(|file| file.path == path).unwrap();
     let mut scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
     (scene.stop.time, scene.stop.loop_closed, scene.stop.reached) = (time, None, None);
+    // They hold for the whole scene.
+    scene.expect.clear();
     scene
 }
 
