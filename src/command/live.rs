@@ -23,7 +23,7 @@ pub(super) struct LivePage {
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     live: Option<String>,
     /// File with the token of the URL, at least 16 letters, digits, `-` and `_`. Without it, the environment variable
-    /// VIBRISSA_LIVE_TOKEN is used. By default, the token is a random one where one is needed
+    /// `VIBRISSA_LIVE_TOKEN` is used. By default, the token is a random one where one is needed
     #[arg(long, value_name = "FILE", requires = "live")]
     live_token_file: Option<PathBuf>,
     /// Simulated seconds per second, or `max`. By default, runs are as fast as reality, and replays as fast as possible

@@ -148,6 +148,7 @@ fn refuse(mut stream: TcpStream, Refused(status, advice): Refused) -> std::io::R
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
 
     #[test]

@@ -171,7 +171,9 @@ mod tests {
         #[test]
         fn ranges_have_exactly_the_seeds_that_were_added(seeds in prop::collection::vec(0..30_u64, 0..20)) {
             let mut ranges = Vec::new();
-            seeds.iter().for_each(|&seed| add_seed(&mut ranges, seed));
+            for &seed in &seeds {
+                add_seed(&mut ranges, seed);
+            }
             let found: Vec<u64> = ranges.iter().flat_map(|range| range.first..=range.last).collect();
             let mut seeds = seeds;
             seeds.sort_unstable();
@@ -184,7 +186,9 @@ mod tests {
     #[test]
     fn the_largest_seed_is_a_range_too() {
         let mut ranges = Vec::new();
-        [u64::MAX, u64::MAX - 1, 0].into_iter().for_each(|seed| add_seed(&mut ranges, seed));
+        for seed in [u64::MAX, u64::MAX - 1, 0] {
+            add_seed(&mut ranges, seed);
+        }
         let texts: Vec<String> = ranges.iter().map(SeedRange::to_string).collect();
         assert_eq!(texts, ["0", "18446744073709551614 to 18446744073709551615"]);
     }

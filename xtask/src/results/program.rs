@@ -14,12 +14,11 @@ use crate::sign_of_life::SignOfLife;
 
 /// The given program, or one that is built. It must contain the policies and scenarios of the checkout.
 pub(super) fn of_checkout(root: &Path, program: Option<&Path>) -> Result<PathBuf, ResultsError> {
-    let path = match program {
-        Some(program) => program.to_owned(),
-        None => {
-            build(root)?;
-            target_directory(root).join("release/vibrissa")
-        }
+    let path = if let Some(program) = program {
+        program.to_owned()
+    } else {
+        build(root)?;
+        target_directory(root).join("release/vibrissa")
     };
     let bytes = fs::read(&path).map_err(|source| ResultsError::Program { path: path.clone(), source })?;
     match first_other(root, &String::from_utf8_lossy(&bytes))? {
