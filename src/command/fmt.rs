@@ -1,5 +1,6 @@
 //! `vibrissa fmt`
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -62,11 +63,43 @@ fn fmt_one(path: &Path, check: bool, files: &mut CommandFiles) -> Result<Exit, F
     Ok(Exit::Done)
 }
 
-/// A unified diff from the current to the formatted text. Empty without a difference.
+/// A unified diff from the current to the formatted text. Empty without a difference. What nobody sees is said or shown: other line
+/// ends, blanks at the end of a line, and tabs.
 fn difference(source: &Source, formatted: &str) -> String {
     let name = printable(&source.name);
-    TextDiff::from_lines(source.text.as_str(), formatted)
-        .unified_diff()
-        .header(&name, &format!("{name} (formatted)"))
-        .to_string()
+    let text = source.text.replace("\r\n", "\n");
+    let mut shown = String::new();
+    let others = source.text.matches("\r\n").count();
+    if others > 0 {
+        let _ = writeln!(
+            shown,
+            "{name}: {others} {} with CR LF, as on Windows; `vibrissa fmt` writes LF alone",
+            if others == 1 { "line ends" } else { "lines end" }
+        );
+    }
+    let difference = TextDiff::from_lines(text.as_str(), formatted);
+    let difference = difference.unified_diff().header(&name, &format!("{name} (formatted)")).to_string();
+    for line in difference.split_inclusive('\n') {
+        match line.strip_prefix('-').filter(|_| !line.starts_with("---")) {
+            Some(removed) => {
+                let _ = write!(shown, "-{}", with_blanks(removed));
+            }
+            None => shown.push_str(line),
+        }
+    }
+    shown
+}
+
+/// A line with signs in place of the spaces at its end, of tabs, and of other blanks that look like them.
+fn with_blanks(line: &str) -> String {
+    let (text, end) = line.strip_suffix('\n').map_or((line, ""), |text| (text, "\n"));
+    let visible = text.trim_end().len();
+    let (head, blanks) = text.split_at(visible);
+    let sign = |letter: char| match letter {
+        '\t' => "\u{2192}".to_owned(),
+        ' ' => "\u{b7}".to_owned(),
+        letter => letter.escape_unicode().to_string(),
+    };
+    let blanks: String = blanks.chars().map(sign).collect();
+    head.replace('\t', "\u{2192}") + &blanks + end
 }

@@ -77,6 +77,25 @@ impl Progress {
         }
     }
 
+    /// Shows a run that is not one of those that are counted, such as one that makes a case simpler.
+    pub(super) fn besides(&mut self, what: impl Display) {
+        self.doing(&what);
+        let elapsed = self.bar.elapsed();
+        if self.bar.is_hidden() && elapsed >= self.due {
+            self.due = next(elapsed);
+            output::message(format_args!("{what}, after {}", HumanDuration(elapsed)));
+        }
+    }
+
+    /// Says what begins, also where there is no bar.
+    pub(super) fn begins(&mut self, what: impl Display) {
+        self.doing(&what);
+        if self.bar.is_hidden() {
+            self.due = next(self.bar.elapsed());
+            output::message(what);
+        }
+    }
+
     /// Ends it.
     pub(super) fn finish(self) {
         self.bar.finish_and_clear();

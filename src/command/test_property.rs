@@ -1,5 +1,6 @@
 //! The properties of `vibrissa test`.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -159,8 +160,20 @@ impl<'a> Property<'a> {
         if failing.is_none() {
             let mut search = Search::new(&self.ranges, self.title(), options.seed.unwrap_or(1));
             if let Some(drawn) = self.first_failure(&mut search, options.cases, jobs, progress, &mut cases)? {
+                let most = Search::MOST_SHRINKING_RUNS;
+                progress.begins(format_args!(
+                    "{}: a case fails; looking for the simplest one, in {most} runs at most",
+                    self.title()
+                ));
+                let (progress, tries) = (RefCell::new(progress), Cell::new(0_usize));
                 let Shrunk { case, tried } = search.shrink(drawn, |case| {
-                    progress.doing(format_args!("{}: simpler than {}", self.title(), case.notable(&self.ranges)));
+                    tries.set(tries.get() + 1);
+                    progress.borrow_mut().besides(format_args!(
+                        "{}: run {} of {most} at most, for the simplest case that fails: {}",
+                        self.title(),
+                        tries.get(),
+                        case.notable(&self.ranges)
+                    ));
                     self.verdict(case)
                 })?;
                 cases.shrinking = tried;

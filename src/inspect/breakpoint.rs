@@ -1,8 +1,9 @@
 //! Breakpoints of a run.
 
-use crate::diagnostic::{Diagnostic, Source};
+use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::policy::explain::{Explained, explain};
 use vibrissa_runtime::machine::{Guard, Register, TIME_SLACK, TransitionId};
+use vibrissa_runtime::units::suggest;
 
 /// A condition, a state or a transition at which a run stops.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +94,8 @@ impl Breakpoints {
     /// with or without a time after `for`. It may contain what a global transition may.
     ///
     /// # Errors
-    /// Those of [`explain`], with the source to which they belong. It contains the breakpoints after the text of the policy.
+    /// Those of [`explain`], with the source to which they belong. The source of an error in a condition is that condition, and the policy
+    /// follows it as a part.
     pub fn new(source: &Source, texts: &[String]) -> Result<Self, (Source, Vec<Diagnostic>)> {
         let plain = explain(source).map_err(|faults| (source.clone(), faults))?;
         let (states, first) = (&plain.program.states, plain.always.len());
@@ -112,7 +114,7 @@ impl Breakpoints {
             return Ok(Self { explained: plain, breakpoints });
         }
         let whole = with_conditions(source, &conditions);
-        let mut explained = explain(&whole).map_err(|faults| (whole, faults))?;
+        let mut explained = explain(&whole).map_err(|faults| refused(&plain, source, &conditions, faults))?;
         for breakpoint in &mut breakpoints {
             if let Place::Condition(index) = breakpoint.place
                 && let Some(Guard::When { lasting, .. }) = explained.program.always.get(index).map(|one| &one.guard)
@@ -151,7 +153,7 @@ fn transition(policy: &Explained, text: &str) -> Option<TransitionId> {
 fn with_conditions(source: &Source, conditions: &[&String]) -> Source {
     let mut text = source.slice(source.part_span(0)).to_owned();
     for condition in conditions {
-        text.extend(["\nalways when ", condition, " -> Failure(\"breakpoint\")"]);
+        text.extend([BEFORE, condition, BEHIND]);
     }
     let mut whole = Source::new(source.name.as_str(), text);
     for part in 1..source.count() {
@@ -161,6 +163,110 @@ fn with_conditions(source: &Source, conditions: &[&String]) -> Source {
         whole.add(source.part_name(part), text);
     }
     whole
+}
+
+/// The text before a condition in the policy.
+const BEFORE: &str = "\nalways when ";
+/// The text after it.
+const BEHIND: &str = " -> Failure(\"breakpoint\")";
+
+/// The diagnostics of the first condition with an error, and their source. It shows the condition as it was written, because the policy
+/// does not contain it.
+fn refused(
+    plain: &Explained,
+    source: &Source,
+    conditions: &[&String],
+    faults: Vec<Diagnostic>,
+) -> (Source, Vec<Diagnostic>) {
+    let policy = source.part_span(0).end;
+    let mut start = policy;
+    let mut found = None;
+    for &condition in conditions {
+        let (first, last) = (start + BEFORE.len(), start + BEFORE.len() + condition.len());
+        start = last + BEHIND.len();
+        if found.is_none() && faults.iter().any(|fault| (policy..=start).contains(&fault.primary.span.start)) {
+            found = Some((condition, first..last));
+        }
+    }
+    let Some((condition, place)) = found else { return (with_conditions(source, conditions), faults) };
+    let mut shown = Source::new("--break", condition.as_str());
+    for part in 0..source.count() {
+        let text = source
+            .absence(part)
+            .map_or_else(|| Ok(source.slice(source.part_span(part))), |absence| Err(absence.to_owned()));
+        shown.add(source.part_name(part), text);
+    }
+    let is_unknown_name =
+        faults.iter().any(|fault| fault.code == "P0201" && fault.primary.span.start == place.start + blanks(condition));
+    if let Some(fault) = unknown(plain, condition, is_unknown_name) {
+        return (shown, vec![fault]);
+    }
+    // The place in the condition, in the policy, or in a file that it uses.
+    let added = start - policy;
+    let moved = |span: Span| {
+        let at = |byte: usize| match byte {
+            _ if place.contains(&byte) || byte == place.end => byte - place.start,
+            _ if byte <= policy => byte + condition.len() + 1,
+            _ if byte >= start => byte - added + condition.len() + 1,
+            _ => condition.len(),
+        };
+        Span::new(at(span.start), at(span.end).max(at(span.start)))
+    };
+    let is_own = |fault: &Diagnostic| (policy..=place.end + BEHIND.len()).contains(&fault.primary.span.start);
+    let faults = faults.into_iter().filter(is_own).map(|mut fault| {
+        for label in std::iter::once(&mut fault.primary).chain(&mut fault.secondary) {
+            label.span = moved(label.span);
+        }
+        fault
+    });
+    (shown, faults.collect())
+}
+
+/// Number of blanks (bytes) before a text.
+fn blanks(text: &str) -> usize {
+    text.len() - text.trim_start().len()
+}
+
+/// The diagnostic for a text that can only be meant as a state or a transition, but is none: it has a colon, or begins with an unknown
+/// name.
+fn unknown(policy: &Explained, text: &str, is_unknown_name: bool) -> Option<Diagnostic> {
+    let (name, guard) = text.split_once(':').map_or((text, None), |(name, guard)| (name, Some(guard)));
+    let is_path =
+        name.trim().split('.').all(|word| !word.is_empty() && word.chars().all(|c| c == '_' || c.is_alphanumeric()));
+    if !is_path || !(is_unknown_name || guard.is_some()) {
+        return None;
+    }
+    let (name, at) = (name.trim(), blanks(text));
+    let span = Span::new(at, at + name.len());
+    let states: Vec<&str> = policy.program.states.iter().map(|state| &*state.name).collect();
+    if let Some(state) = states.iter().position(|state| *state == name) {
+        let guards = policy.states.get(state)?.iter().map(|one| format!("`{}`", one.text)).collect::<Vec<_>>();
+        let guard = guard?.trim();
+        let message = format!("the state `{name}` has no transition with the guard `{guard}`");
+        let fault = Diagnostic::error("P0201", message, Span::new(at, text.trim_end().len()), "unknown transition");
+        return Some(fault.hint(if guards.is_empty() {
+            "it has no transitions".to_owned()
+        } else {
+            format!("its guards are {}", guards.join(", "))
+        }));
+    }
+    let fault =
+        Diagnostic::error("P0201", format!("there is no state `{name}`"), span, "neither a state nor a condition");
+    // The last name of a path may be that of a state in a behaviour.
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let meant = suggest(name, states.iter().copied()).map(str::to_owned).or_else(|| {
+        let names: Vec<String> = states.iter().map(|state| last(state)).collect();
+        let wanted = last(name);
+        let near = suggest(&wanted, names.iter().map(String::as_str))?;
+        states.iter().find(|state| last(state) == near).map(|state| (*state).to_owned())
+    });
+    Some(match meant {
+        Some(meant) => fault.hint(format!("did you mean `{meant}`?")),
+        None => fault.hint(format!(
+            "the states are {}; a condition is such as `time > 5 s`",
+            states.iter().map(|state| format!("`{state}`")).collect::<Vec<_>>().join(", ")
+        )),
+    })
 }
 
 /// Keeps the global transitions from `first` on from being taken. Their conditions are still computed.

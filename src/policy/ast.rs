@@ -4,6 +4,9 @@ mod statement;
 
 pub(super) use statement::{Binary, Expression, Kind, Statement, Steer, Turn};
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use crate::diagnostic::Span;
 
 /// A name and its span.
@@ -266,12 +269,22 @@ pub(super) struct Law {
 /// `state name(arguments) { … }`
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct State {
-    pub(super) name: Name,
     /// Index of the state that contains this one.
     pub(super) parent: Option<usize>,
-    pub(super) arguments: Vec<Argument>,
     /// `initial Name(values)`. A state with inner states has exactly one.
-    pub(super) initial: Vec<Step>,
+    pub(super) initial: Vec<Arc<Step>>,
+    pub(super) contracts: Arc<Vec<Contract>>,
+    /// The use of a behaviour to which the state belongs: 0 for the states of the machine itself.
+    pub(super) instance: usize,
+    /// What all copies of the state have in common. A behaviour may be copied thousands of times.
+    pub(super) content: Arc<StateContent>,
+}
+
+/// What all copies of a state have in common.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct StateContent {
+    pub(super) name: Name,
+    pub(super) arguments: Vec<Argument>,
     /// `var name = value`
     pub(super) memory: Vec<(Name, Expression)>,
     pub(super) entry: Vec<Statement>,
@@ -279,15 +292,20 @@ pub(super) struct State {
     pub(super) body: Vec<Statement>,
     pub(super) transitions: Vec<Transition>,
     pub(super) failsafes: Vec<Target>,
-    pub(super) contracts: Vec<Contract>,
     /// `is name(values)`: the behaviour that is the content of the state.
-    pub(super) behaviour: Option<Step>,
+    pub(super) behaviour: Option<Arc<Step>>,
     /// `on exit(names) -> target`
     pub(super) connections: Vec<Connection>,
     /// `exit name(arguments)`. Only the outermost state of a behaviour may have exits.
-    pub(super) exits: Vec<Exit>,
-    /// The use of a behaviour to which the state belongs: 0 for the states of the machine itself.
-    pub(super) instance: usize,
+    pub(super) exits: Arc<Vec<Exit>>,
+}
+
+impl Deref for State {
+    type Target = StateContent;
+
+    fn deref(&self) -> &StateContent {
+        &self.content
+    }
 }
 
 /// `behaviour name(arguments) { … }`

@@ -4,6 +4,7 @@
 //! memory are known only within it.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use vibrissa_runtime::machine::NESTING_LIMIT;
@@ -11,7 +12,8 @@ use vibrissa_runtime::machine::NESTING_LIMIT;
 use super::ast::{Behaviour, Connection, Exit, File, Name, State, Step};
 use super::suggestion::did_you_mean;
 
-/// The maximum total length of the texts of all copies (bytes). It bounds memory and time of the compilation.
+/// The maximum total length of the texts of all copies in a machine (bytes), with the paths of their names. It bounds memory and
+/// time of the compilation. All behaviours that are checked alone have as much together.
 const COPIED_LIMIT: usize = 1 << 20;
 
 /// States that share one set of names: those of the machine, or those of one copy of a behaviour.
@@ -24,7 +26,7 @@ pub(super) struct Instance {
     /// The name of the behaviour, or that of the machine.
     pub(super) name: Name,
     /// The exits of the behaviour.
-    pub(super) exits: Vec<Exit>,
+    pub(super) exits: Arc<Vec<Exit>>,
     /// The names of the states before those of the copy, each with a `.` behind it.
     pub(super) prefix: String,
 }
@@ -56,43 +58,89 @@ impl Expanded {
 }
 
 /// Expands the machine of the first file.
-pub(super) fn machine(files: &[&File], links: &[Vec<usize>]) -> Expanded {
-    let Some(file) = files.first() else {
+pub(super) fn machine(behaviours: &Behaviours<'_>) -> Expanded {
+    let Some(file) = behaviours.files.first() else {
         return Expanded { states: Vec::new(), instances: Vec::new(), faults: Vec::new() };
     };
-    expand(files, links, (0, &file.name), &file.states, &[])
+    expand(behaviours, (0, &file.name), (&file.states, Arc::default()), &mut 0)
 }
 
-/// Expands every behaviour of a file alone, so that it is checked wherever it is used.
-pub(super) fn behaviours(files: &[&File], links: &[Vec<usize>], number: usize) -> Vec<Expanded> {
-    let behaviours = files.get(number).into_iter().flat_map(|file| &file.behaviours);
-    behaviours
-        .map(|behaviour| expand(files, links, (number, &behaviour.name), &behaviour.states, &behaviour.root().exits))
-        .collect()
+/// Expands every behaviour of a file alone, so that it is checked wherever it is used. `copied` counts the copies of all files
+/// (bytes). The behaviours behind the one that exceeds the limit are left out.
+pub(super) fn alone(behaviours: &Behaviours<'_>, number: usize, copied: &mut usize) -> Vec<Expanded> {
+    let mut expanded = Vec::new();
+    for behaviour in behaviours.files.get(number).into_iter().flat_map(|file| &file.behaviours) {
+        if *copied > COPIED_LIMIT {
+            break;
+        }
+        let content = (behaviour.states.as_slice(), Arc::clone(&behaviour.root().exits));
+        expanded.push(expand(behaviours, (number, &behaviour.name), content, copied));
+    }
+    expanded
 }
 
 fn expand(
-    files: &[&File],
-    links: &[Vec<usize>],
+    behaviours: &Behaviours<'_>,
     (file, name): (usize, &Name),
-    states: &[State],
-    exits: &[Exit],
+    (states, exits): (&[State], Arc<Vec<Exit>>),
+    copied: &mut usize,
 ) -> Expanded {
-    let whole = Instance { file, user: None, name: name.clone(), exits: exits.to_vec(), prefix: String::new() };
+    let whole = Instance { file, user: None, name: name.clone(), exits, prefix: String::new() };
     let whole = Expanded { states: Vec::new(), instances: vec![whole], faults: Vec::new() };
-    let mut expansion = Expansion { files, links, whole, copied: 0, open: Vec::new() };
+    let mut expansion = Expansion { behaviours, whole, copied: *copied, open: Vec::new() };
     // A behaviour that is checked alone cannot use itself.
     if states.first().is_some_and(|root| root.name.span == name.span) {
         expansion.open.push(name.span);
     }
     expansion.copy(states, 0, None);
+    *copied = expansion.copied;
     expansion.whole
 }
 
-struct Expansion<'f> {
+/// The files of a policy, with their behaviours.
+pub(super) struct Behaviours<'f> {
+    /// The policy comes first.
     files: &'f [&'f File],
     /// For every `use` of every file, the index of the used library.
     links: &'f [Vec<usize>],
+    /// The behaviours of every file, by their names. Of several with the same name, the first one.
+    named: Vec<HashMap<&'f str, &'f Behaviour>>,
+}
+
+impl<'f> Behaviours<'f> {
+    pub(super) fn new(files: &'f [&'f File], links: &'f [Vec<usize>]) -> Self {
+        let named = |file: &&'f File| {
+            let behaviours = file.behaviours.iter().rev();
+            behaviours.map(|behaviour| (behaviour.name.text.as_str(), behaviour)).collect()
+        };
+        Self { files, links, named: files.iter().map(named).collect() }
+    }
+
+    /// The behaviour that a name means in a file, and the number of its file.
+    fn find(&self, file: usize, name: &str) -> Option<(usize, &'f Behaviour)> {
+        let own = |number: usize| Some((number, *self.named.get(number)?.get(name)?));
+        own(file).or_else(|| self.imports(file, name).find_map(own))
+    }
+
+    /// The numbers of the files from which a file imports `name`.
+    fn imports(&self, file: usize, name: &str) -> impl Iterator<Item = usize> {
+        let uses = self.files.get(file).into_iter().flat_map(|file| &file.uses);
+        let links = self.links.get(file).into_iter().flatten();
+        let is_chosen = move |names: &Option<Vec<Name>>| {
+            names.as_ref().is_none_or(|names| names.iter().any(|chosen| chosen.text == name))
+        };
+        uses.zip(links).filter(move |(used, _)| is_chosen(&used.names)).map(|(_, &link)| link + 1)
+    }
+
+    /// The names of the behaviours that a file knows.
+    fn known(&self, file: usize) -> impl Iterator<Item = &'f str> {
+        let all = self.files.iter().flat_map(|file| &file.behaviours).map(|behaviour| behaviour.name.text.as_str());
+        all.filter(move |name| self.find(file, name).is_some())
+    }
+}
+
+struct Expansion<'f> {
+    behaviours: &'f Behaviours<'f>,
     whole: Expanded,
     /// Length of all copied texts (bytes).
     copied: usize,
@@ -100,11 +148,16 @@ struct Expansion<'f> {
     open: Vec<Span>,
 }
 
-impl<'f> Expansion<'f> {
+impl Expansion<'_> {
     fn report(&mut self, fault: Diagnostic) {
-        if self.whole.faults.len() < FAULT_LIMIT && !self.whole.faults.contains(&fault) {
+        if !self.is_full() && !self.whole.faults.contains(&fault) {
             self.whole.faults.push(fault);
         }
+    }
+
+    /// True if there are enough faults, so that nothing more is checked.
+    fn is_full(&self) -> bool {
+        self.whole.faults.len() >= FAULT_LIMIT
     }
 
     /// Appends the states of an instance. `parent` is the state that uses it.
@@ -124,18 +177,22 @@ impl<'f> Expansion<'f> {
     }
 
     /// Copies the behaviour that a state uses.
-    fn apply(&mut self, state: &State, place: usize, used: &Step) {
+    fn apply(&mut self, state: &State, place: usize, used: &Arc<Step>) {
         let file = self.whole.instances[self.whole.states[place].instance].file;
         if !state.initial.is_empty() {
             let message = format!("the state `{}` has a behaviour and an `initial`", state.name.text);
             let fault = Diagnostic::error("P0420", message, used.span, "its content");
             self.report(fault.hint("a behaviour has its own inner states; remove `initial` and the inner states"));
         }
-        let Some((number, behaviour)) = self.find(file, &used.name) else {
-            let known = self.known(file);
+        let Some((number, behaviour)) = self.behaviours.find(file, &used.name.text) else {
+            let behaviours = self.behaviours;
             let message = format!("there is no behaviour `{}`", used.name.text);
             let fault = Diagnostic::error("P0201", message, used.name.span, "unknown behaviour");
-            self.report(did_you_mean(fault, &used.name.text, known.iter().map(String::as_str)));
+            // All copies have the same fault.
+            let is_same = |known: &Diagnostic| known.code == fault.code && known.primary.span == fault.primary.span;
+            if !self.is_full() && !self.whole.faults.iter().any(is_same) {
+                self.report(did_you_mean(fault, &used.name.text, behaviours.known(file)));
+            }
             return;
         };
         if self.open.contains(&behaviour.name.span) {
@@ -149,7 +206,8 @@ impl<'f> Expansion<'f> {
             return;
         }
         self.check_connections(state, behaviour, used);
-        self.copied += behaviour.span.end - behaviour.span.start;
+        let prefix = format!("{}.", self.whole.path(place));
+        self.copied += behaviour.span.end - behaviour.span.start + prefix.len();
         if self.copied > COPIED_LIMIT {
             let fault =
                 Diagnostic::error("P0402", "the compiled policy is too large", used.span, "exceeds the limit here");
@@ -161,48 +219,19 @@ impl<'f> Expansion<'f> {
         if depth > NESTING_LIMIT {
             return;
         }
-        let prefix = format!("{}.", self.whole.path(place));
         self.whole.instances.push(Instance {
             file: number,
             user: Some(place),
             name: behaviour.name.clone(),
-            exits: behaviour.root().exits.clone(),
+            exits: Arc::clone(&behaviour.root().exits),
             prefix,
         });
         if let Some(user) = self.whole.states.get_mut(place) {
-            user.initial = vec![used.clone()];
+            user.initial = vec![Arc::clone(used)];
         }
         self.open.push(behaviour.name.span);
         self.copy(&behaviour.states, self.whole.instances.len() - 1, Some(place));
         self.open.pop();
-    }
-
-    /// The behaviour that a name means in a file, and the number of its file.
-    fn find(&self, file: usize, name: &Name) -> Option<(usize, &'f Behaviour)> {
-        let own = |number: usize| {
-            let behaviours = &self.files.get(number)?.behaviours;
-            Some((number, behaviours.iter().find(|behaviour| behaviour.name.text == name.text)?))
-        };
-        let used = self.imports(file, name);
-        own(file).or_else(|| used.into_iter().find_map(own))
-    }
-
-    /// The numbers of the files from which a file imports `name`.
-    fn imports(&self, file: usize, name: &Name) -> Vec<usize> {
-        let uses = self.files.get(file).into_iter().flat_map(|file| &file.uses);
-        let links = self.links.get(file).into_iter().flatten();
-        let is_chosen = |names: &Option<Vec<Name>>| {
-            names.as_ref().is_none_or(|names| names.iter().any(|chosen| chosen.text == name.text))
-        };
-        uses.zip(links).filter(|(used, _)| is_chosen(&used.names)).map(|(_, &link)| link + 1).collect()
-    }
-
-    /// The names of the behaviours that a file knows.
-    fn known(&self, file: usize) -> Vec<String> {
-        let own = |number: usize| self.files.get(number).into_iter().flat_map(|file| &file.behaviours);
-        let used = (0..self.files.len()).flat_map(own).map(|behaviour| &behaviour.name);
-        let known = used.filter(|name| self.find(file, name).is_some());
-        known.map(|name| name.text.clone()).collect()
     }
 
     /// Reports two states, or two exits, of a behaviour with the same name. Those of a machine are checked with its
@@ -258,7 +287,10 @@ impl<'f> Expansion<'f> {
     /// Reports exits of a behaviour that a state does not connect, and connections of other names.
     fn check_connections(&mut self, state: &State, behaviour: &Behaviour, used: &Step) {
         let exits = &behaviour.root().exits;
-        for exit in exits {
+        for exit in exits.iter() {
+            if self.is_full() {
+                return;
+            }
             let mut connections = state.connections.iter().filter(|connection| connection.exit.text == exit.name.text);
             let Some(first) = connections.next() else {
                 let (name, exit_name) = (&behaviour.name.text, &exit.name.text);
@@ -281,6 +313,9 @@ impl<'f> Expansion<'f> {
             }
         }
         for connection in &state.connections {
+            if self.is_full() {
+                return;
+            }
             self.check_connection(connection, behaviour);
         }
     }

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Source, Span};
 
 use super::ast::{File, FileKind, Use};
-use super::expand::{self, Expanded};
+use super::expand::{self, Behaviours, Expanded};
 use super::path::{is_same, resolve, standard};
 use super::recover::{Recovery, parse_all};
 
@@ -44,11 +44,13 @@ impl Files {
     /// The files, with the behaviours expanded.
     fn new(main: File, libraries: Vec<File>, links: Vec<Vec<usize>>) -> Self {
         let all: Vec<&File> = std::iter::once(&main).chain(&libraries).collect();
-        let machine = expand::machine(&all, &links);
+        let known = Behaviours::new(&all, &links);
+        let machine = expand::machine(&known);
         // Tests ensure that the standard library has no errors.
         let is_checked = |number: usize| number == 0 || !all[number].is_standard;
+        let mut copied = 0;
         let behaviours = (0..all.len())
-            .map(|number| if is_checked(number) { expand::behaviours(&all, &links, number) } else { Vec::new() })
+            .map(|number| if is_checked(number) { expand::alone(&known, number, &mut copied) } else { Vec::new() })
             .collect();
         Self { main, libraries, links, machine, behaviours }
     }

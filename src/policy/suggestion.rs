@@ -16,7 +16,11 @@ pub(super) fn did_you_mean<'a>(
     if name.len() > NAME_LIMIT {
         return diagnostic;
     }
-    let mut known: Vec<&str> = known.into_iter().filter(|known| known.len() <= NAME_LIMIT).collect();
+    // The edit distance of two names is at least the difference of their lengths. To compare these takes less time.
+    let allowed = (name.chars().count() / 3).max(1);
+    let is_alike = |known: &str| !(name.is_ascii() && known.is_ascii()) || known.len().abs_diff(name.len()) <= allowed;
+    let known = known.into_iter().filter(|known| known.len() <= NAME_LIMIT && is_alike(known));
+    let mut known: Vec<&str> = known.collect();
     known.sort_unstable();
     match suggest(name, known) {
         Some(meant) => diagnostic.hint(format!("did you mean `{meant}`?")),

@@ -65,6 +65,10 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
         )
         .hint("save it as UTF-8 without a byte-order mark (BOM)");
     }
+    if let Some((what, hint)) = unseen(found) {
+        let code = found.chars().map(|letter| format!("U+{:04X}", u32::from(letter))).collect::<Vec<_>>().join(" ");
+        return Diagnostic::error("P0101", format!("{what} is unexpected here"), span, code).hint(hint);
+    }
     if found == "\"" && !is_closed(&source.text[at..]) {
         return Diagnostic::error("P0101", "the text is not closed", span, "begins here")
             .hint("end it with `\"` on the same line");
@@ -116,6 +120,41 @@ fn word_at(text: &str, at: usize) -> Span {
     let word = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
     let length = if word > 0 { word } else { rest.chars().next().map_or(0, char::len_utf8) };
     Span::new(at, at + length)
+}
+
+/// What a character is that nobody sees, or that looks like a space, and advice.
+fn unseen(found: &str) -> Option<(&'static str, &'static str)> {
+    let (space, nothing) = ("write an ordinary space", "delete it; an editor may show it with its code");
+    Some(match found.chars().next()? {
+        '\u{a0}' | '\u{2007}' | '\u{202f}' => ("a no-break space", space),
+        '\u{2028}' | '\u{2029}' | '\u{85}' => ("a line separator", "end the line with an ordinary line end"),
+        '\u{feff}' => ("a byte-order mark", nothing),
+        '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{180e}' => ("an invisible character", nothing),
+        '\u{ad}' => ("a soft hyphen", nothing),
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
+            ("a character that changes the direction of the text", nothing)
+        }
+        letter if letter.is_control() => ("a control character", nothing),
+        letter if letter.is_whitespace() => ("a special space", space),
+        _ => return None,
+    })
+}
+
+/// The sign of the language that looks like a sign of word processors.
+fn plain(found: &str) -> Option<&'static str> {
+    Some(match found {
+        "\u{2212}" | "\u{2013}" | "\u{2014}" | "\u{2010}" | "\u{2011}" => "-",
+        "\u{201c}" | "\u{201d}" | "\u{201e}" | "\u{ab}" | "\u{bb}" => "\"",
+        "\u{d7}" | "\u{22c5}" | "\u{b7}" => "*",
+        "\u{f7}" | "\u{2044}" => "/",
+        "\u{2264}" => "<=",
+        "\u{2265}" => ">=",
+        "\u{2260}" => "!=",
+        "\u{2192}" => "->",
+        "\u{b0}" => "deg",
+        "\u{2026}" => "..",
+        _ => return None,
+    })
 }
 
 /// True if the string at the beginning of `rest` ends on its line.
@@ -183,6 +222,10 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
             "a parameter is a number, `true`, `false`, or a value of an enumeration such as `Side.left`".to_owned()
         }
         _ if found.starts_with(['\u{b5}', '\u{3bc}']) => "write `u` for micro: `urad`".to_owned(),
+        _ if let Some(sign) = plain(found) => format!("write `{sign}`"),
+        _ if let Some(letter) = found.chars().find(|letter| !letter.is_ascii() && is_word(*letter)) => {
+            format!("`{letter}` is U+{:04X}; names and words have only the letters a to z and A to Z", u32::from(letter))
+        }
         _ if advice_for(found).is_some() => advice_for(found)?.to_owned(),
         _ if rules.contains(&Rule::kw_do) && found.starts_with(is_word) && !is_keyword(found) => {
             statement(found, rest[found.len()..].trim_start())?

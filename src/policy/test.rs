@@ -1,5 +1,7 @@
 //! The tests of a policy: runs with expectations.
 
+use std::sync::Arc;
+
 use crate::catalogue::{Entry, Parameter};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::Vector2;
@@ -75,8 +77,8 @@ pub struct Expectation {
     /// Span of the condition.
     pub span: Span,
     pub(super) code: Vec<Op>,
-    /// Initial values of the registers.
-    pub(super) initial: Vec<f64>,
+    /// Initial values of the registers: those of the program, which the expectations share, and the own ones behind them.
+    pub(super) initial: [Arc<[f64]>; 2],
     pub(super) result: Register,
     pub(super) figures: Vec<FigureRegister>,
 }
@@ -189,7 +191,7 @@ impl Expectation {
     ///
     /// `figure` returns figures in SI units, bools as 1 and 0, and NaN for a figure that the run does not have.
     pub fn violation(&self, program: &Program, figure: impl Fn(RunFigure) -> f64) -> Option<Diagnostic> {
-        let mut registers = self.initial.clone();
+        let mut registers = self.initial.concat();
         let parameters = program.parameters.len();
         registers[..parameters].copy_from_slice(&program.initial_registers[..parameters]);
         for place in &self.figures {

@@ -52,6 +52,9 @@ pub(crate) struct Search {
 }
 
 impl Search {
+    /// The largest number of runs until the simplest case is found.
+    pub(crate) const MOST_SHRINKING_RUNS: usize = MAX_PASSES * MAX_RUNS as usize;
+
     /// The cases of a property over these ranges. They depend only on the ranges, the title and the seed.
     pub(crate) fn new(ranges: &[ParameterRange], title: &str, seed: u64) -> Self {
         let hash = Sha256::new().chain_update(title).chain_update([0]).chain_update(seed.to_le_bytes()).finalize();

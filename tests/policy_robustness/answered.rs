@@ -40,9 +40,9 @@ fn with_main(source: &Source, text: String) -> Source {
 }
 
 /// A text is a policy, perhaps with warnings, or has a fault, and each of them has a place in the text and words. That a file is not
-/// there is a fault like others.
-pub(crate) fn is_answered(text: &str) {
-    let _ = answer(&source(text));
+/// there is a fault like others. Returns whether it compiles.
+pub(crate) fn is_answered(text: &str) -> bool {
+    answer(&source(text)).is_ok()
 }
 
 fn answer(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {

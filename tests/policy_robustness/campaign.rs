@@ -6,14 +6,28 @@ use std::{env, fmt, thread};
 
 use rustix::time::{ClockId, clock_gettime};
 
-use crate::answered::{is_answered_the_same, is_handled};
+use crate::answered::{is_answered, is_answered_the_same, is_handled};
 use crate::random::Random;
 use crate::{STACK, THESIS, allocator, mutate};
 
 /// The largest time of any text, as a multiple of the time of `thesis.fsm`.
 const MOST_TIME: f64 = 1000.0;
 /// The most bytes that any text may take at once.
-const MOST_MEMORY: usize = 256 << 20;
+pub(crate) const MOST_MEMORY: usize = 256 << 20;
+
+/// The most time of a processor that the compiler may take for a text whose parts share others. Tests are not built for speed.
+pub(crate) const MOST_SHARED_TIME: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 2 });
+
+/// Where texts come from.
+#[derive(Clone, Copy, PartialEq)]
+enum Texts {
+    /// Policies by rules, and those of the project, as they are or mutated.
+    Usual,
+    /// Policies whose parts share others, as they are.
+    Shared,
+    /// The same, mutated.
+    SharedAndMutated,
+}
 
 /// What became of the texts.
 #[derive(Default)]
@@ -29,15 +43,24 @@ struct Report {
 }
 
 /// Tries `texts` texts that come from `seed`, on a small stack.
-fn campaign(seed: u64, texts: usize) -> Report {
+fn campaign(from: Texts, seed: u64, texts: usize) -> Report {
     let worker = move || {
         let corpus = mutate::corpus();
         let mut report = Report { texts, unit: fastest(|| is_handled(THESIS)), ..Report::default() };
         for index in 0..texts {
             // Every text has a seed of its own, so that one can be made again alone.
-            let text = mutate::input(&corpus, &mut Random(seed.wrapping_add(index as u64)));
+            let random = &mut Random(seed.wrapping_add(index as u64));
+            let text = match from {
+                Texts::Usual => mutate::input(&corpus, random),
+                Texts::Shared => mutate::shared_input(&corpus, false, random),
+                Texts::SharedAndMutated => mutate::shared_input(&corpus, true, random),
+            };
             let start = worked();
             let handle = || {
+                // The time is that of the compiler. What else is done with a text is tried with a part.
+                if from != Texts::Usual && !index.is_multiple_of(32) {
+                    return is_answered(&text);
+                }
                 // Asking again takes several times as long, so only a part is.
                 if index.is_multiple_of(16) {
                     is_answered_the_same(&text);
@@ -48,7 +71,11 @@ fn campaign(seed: u64, texts: usize) -> Report {
             let mut time = worked().saturating_sub(start);
             if time > report.slowest.0 {
                 // Something else may have had the caches.
-                time = time.min(fastest(|| catch_unwind(AssertUnwindSafe(|| is_handled(&text)))));
+                time = time.min(fastest(|| {
+                    catch_unwind(AssertUnwindSafe(|| {
+                        if from == Texts::Usual { is_handled(&text) } else { is_answered(&text) }
+                    }))
+                }));
             }
             report.bytes += text.len();
             report.compiled += usize::from(matches!(handled, Ok(true)));
@@ -68,7 +95,7 @@ fn campaign(seed: u64, texts: usize) -> Report {
 }
 
 /// The time for which this thread has had a processor. Time on a clock would count what else the machine does.
-fn worked() -> Duration {
+pub(crate) fn worked() -> Duration {
     clock_gettime(ClockId::ThreadCPUTime).try_into().unwrap()
 }
 
@@ -93,6 +120,12 @@ impl Report {
         assert!(self.largest.0 < MOST_MEMORY, "too large: {self}");
         assert!(self.compiled > self.texts * 3 / 20, "hardly any compiles: {self}");
     }
+
+    fn check_shared(&self) {
+        assert!(self.panics.is_empty(), "{self}");
+        assert!(self.largest.0 < MOST_MEMORY, "too large: {self}");
+        assert!(self.slowest.0 < MOST_SHARED_TIME, "too slow: {self}");
+    }
 }
 
 impl fmt::Display for Report {
@@ -110,7 +143,13 @@ impl fmt::Display for Report {
 
 #[test]
 fn mutated_and_generated_policies_are_handled_in_bounded_memory() {
-    campaign(1, 3000).check();
+    campaign(Texts::Usual, 1, 3000).check();
+}
+
+#[test]
+fn policies_with_exponentially_many_uses_are_answered_in_bounded_time_and_memory() {
+    campaign(Texts::Shared, 1, 40).check_shared();
+    campaign(Texts::SharedAndMutated, 2, 20).check_shared();
 }
 
 /// `cargo x fuzz` runs this.
@@ -120,8 +159,22 @@ fn mutated_and_generated_policies_are_handled_in_bounded_memory() {
 fn as_many_policies_as_asked_for_are_handled_in_bounded_time_and_memory() {
     let texts = env::var("FUZZ_TEXTS").ok().and_then(|texts| texts.parse().ok()).unwrap_or(100_000);
     let seed = env::var("FUZZ_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
-    let report = campaign(seed, texts);
+    let report = campaign(Texts::Usual, seed, texts);
     println!("{report}");
     assert!(report.ratio() < MOST_TIME, "too slow: {report}");
     report.check();
+}
+
+/// `cargo x fuzz` runs this, too.
+#[test]
+#[ignore = "takes minutes; `cargo x fuzz N` runs it on N texts, and on N mutated ones"]
+#[expect(clippy::print_stdout, reason = "the figures are what it is run for")]
+fn as_many_policies_with_shared_parts_as_asked_for_are_answered_in_bounded_time_and_memory() {
+    let texts = env::var("FUZZ_TEXTS").ok().and_then(|texts| texts.parse().ok()).unwrap_or(100_000);
+    let seed = env::var("FUZZ_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
+    for from in [Texts::Shared, Texts::SharedAndMutated] {
+        let report = campaign(from, seed, texts);
+        println!("{report}");
+        report.check_shared();
+    }
 }

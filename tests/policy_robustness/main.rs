@@ -12,6 +12,7 @@ mod erratic;
 mod generate;
 mod mutate;
 mod random;
+mod shared;
 
 use std::thread;
 
@@ -324,4 +325,88 @@ fn large_texts_and_texts_that_double_with_every_line_are_answered() {
     answered(format!("machine m initial S {}", "\u{1F980}".repeat(60_000)));
     let doubling = list(40, &|index| format!("law l{}(x: number) {{ do l{index}(x + x) do l{index}(x) }}", index + 1));
     answered(format!("machine m initial S law l0(x: number) {{ }} {doubling} state S {{ do l40(1) }}"));
+}
+
+/// How a text of about 64 kB begins, and lines of which it has as many as fit.
+fn filled(begin: &str, line: impl Fn(usize) -> String, end: &str) -> String {
+    let mut text = begin.to_owned();
+    for index in 0.. {
+        let line = line(index);
+        if text.len() + line.len() + end.len() >= 64 << 10 {
+            break;
+        }
+        text += &line;
+        text.push('\n');
+    }
+    text + end
+}
+
+#[test]
+fn texts_whose_parts_double_with_every_line_take_little_time_and_memory() {
+    let machine = "machine m whisker r0 initial A\n";
+    let state = "state A { stop after 1 s -> Failure(\"late\") }";
+    let list = |line: &str| (0..2500).map(|index| line.replace('#', &index.to_string())).collect::<String>();
+    let chain = |base: &str, line: &dyn Fn(usize) -> String| filled(&format!("{machine}{base}\n"), line, state);
+    let texts = [
+        include_str!("../fixtures/policies/bad/type_bomb.fsm").to_owned(),
+        include_str!("../fixtures/policies/bad/law_bomb.fsm").to_owned(),
+        include_str!("../fixtures/policies/bad/monitor_endless.fsm").to_owned(),
+        // Types: over an unknown one, as an argument, in a list, in reverse, around in a circle, and with more numbers than a register has.
+        chain("type R0(a: Nope, b: Nope)", &|index| {
+            format!("type R{}(a: R{index}, b: R{index}) state S{index}(r: R{index}) {{ }}", index + 1)
+        }),
+        chain("type R0(a: number)", &|index| {
+            format!("type R{}(a: R{index}, b: R{index}) type L{index} = list of 16 R{index}", index + 1)
+        }),
+        chain("", &|index| format!("type R{index}(a: R{})", index + 1)),
+        chain("type R5(a: R0)", &|index| format!("type R{index}(a: R{})", (index + 1) % 5)),
+        format!(
+            "{machine}type R({}) {state}",
+            (0..3000).map(|index| format!("a{index}: position")).collect::<Vec<_>>().join(", ")
+        ),
+        // Laws, derived values and defaults over what fails.
+        chain("", &|index| format!("law l{index}() {{ do l{0}() do l{0}() }}", index + 1)),
+        chain("", &|index| format!("let v{index} = v{0} + v{0}", index + 1)),
+        chain("let v0(x: number = nope) = x", &|index| {
+            format!("let v{}(x: number = v{index}() + v{index}()) = x", index + 1)
+        }),
+        chain("type R0(x: number = nope)", &|index| {
+            format!("type R{}(x: number = R{index}().x + R{index}().x)", index + 1)
+        }),
+        // Monitors as arguments.
+        chain("monitor m0(x: number) { }", &|index| {
+            format!("monitor m{}(p: m{index}, q: m{index}) {{ }} law l{index}(m: m{index}) {{ }}", index + 1)
+        }),
+        chain("monitor m0(x: number) { }", &|index| format!("monitor m{}(p: m{index}) {{ }}", index + 1)),
+        // Behaviours: wide and deep, and each of them alone.
+        chain("behaviour b0 { initial S state S { } }", &|index| {
+            let states = (0..30).map(|place| format!("state S{place} is b{} {{ }}", index.min(2))).collect::<Vec<_>>();
+            format!("behaviour b{} {{ initial S0 {} }}", index + 1, states.join(" "))
+        }),
+        // Conditions whose parts are arguments.
+        chain("let t0(x: truth) = x and x", &|index| format!("let t{}(x: truth) = t0(t{index}(x))", index + 1))
+            + " never t90(time > 1 s)",
+        // Many choices, each in many parameters; much memory in many states; much memory and many values.
+        {
+            let choices = (0..3000).map(|index| format!("e{index}")).collect::<Vec<_>>().join(" or ");
+            chain(&format!("type E = {choices}"), &|index| format!("param p{index} = E.e1"))
+        },
+        format!("{machine}{}{}{state}", list("var a# = 1\n"), list("state S# { }\n")),
+        format!("{machine}{}state A {{ stop\n{}}}", list("var a# = 1\n"), list("let b# = 1\n")),
+        format!("{machine}{}state A {{ stop\n{}}}", list("var a# = 1\n"), list("let b# = a1\n")),
+        format!("{machine}{}state A {{ stop\n{}}}", list("var a# = 1\n"), list("set a# = 1\n")),
+    ];
+    for text in texts {
+        let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
+            let start = campaign::worked();
+            let ((), peak) = allocator::peak(|| {
+                is_answered(&text);
+            });
+            (campaign::worked().saturating_sub(start), peak, text)
+        });
+        let (time, peak, text) = worker.unwrap().join().unwrap();
+        let begin: String = text.chars().take(300).collect();
+        assert!(time < campaign::MOST_SHARED_TIME, "{time:?}: {begin}");
+        assert!(peak < campaign::MOST_MEMORY, "{peak} bytes: {begin}");
+    }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::TOKENS;
 use crate::generate;
 use crate::random::Random;
+use crate::shared;
 
 /// Texts longer than this (bytes) are cut, so that a random walk stays among small ones.
 const LONGEST: usize = 8 << 10;
@@ -52,18 +53,32 @@ pub(crate) fn input(corpus: &Corpus, random: &mut Random) -> String {
         0 => generate::policy(random),
         _ => corpus.pick(random).clone(),
     };
-    let other = corpus.pick(random);
-    for _ in 0..[0, 0, 1, 1, 2, 5][random.below(6)] {
-        text = match random.below(3) {
-            0 => with_other_bytes(&text, other, random),
-            _ => with_other_words(&text, other, random),
-        };
-    }
+    let changes = [0, 0, 1, 1, 2, 5][random.below(6)];
+    text = changed(text, corpus, changes, random);
     let mut end = text.len().min(LONGEST);
     while !text.is_char_boundary(end) {
         end -= 1;
     }
     text.truncate(end);
+    text
+}
+
+/// A text to try whose parts share others, as it is or changed in small ways.
+pub(crate) fn shared_input(corpus: &Corpus, is_changed: bool, random: &mut Random) -> String {
+    let text = shared::policy(random);
+    let changes = if is_changed { 1 + random.below(4) } else { 0 };
+    changed(text, corpus, changes, random)
+}
+
+/// The text after so many small changes.
+fn changed(mut text: String, corpus: &Corpus, changes: usize, random: &mut Random) -> String {
+    let other = corpus.pick(random);
+    for _ in 0..changes {
+        text = match random.below(3) {
+            0 => with_other_bytes(&text, other, random),
+            _ => with_other_words(&text, other, random),
+        };
+    }
     text
 }
 

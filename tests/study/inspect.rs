@@ -124,3 +124,44 @@ fn policies_differ_first_where_the_edited_transition_is_taken() {
     assert_eq!((equal.first, equal.states_differ_from), (None, None));
     assert_eq!(equal.equal_ticks, plain("box").run.trace.ticks.len());
 }
+
+#[test]
+fn a_breakpoint_that_names_no_state_or_transition_is_shown_as_it_was_written() {
+    let source = Source::new("policy.fsm", THESIS);
+    for (text, message, hint) in [
+        ("Swipping", "there is no state `Swipping`", "did you mean `Swiping`?"),
+        (" exploring", "there is no state `exploring`", "did you mean `Exploring`?"),
+        ("Nowhere.Swipng", "there is no state `Nowhere.Swipng`", "did you mean `Swiping`?"),
+        (
+            "Exploring: r0.touchin",
+            "the state `Exploring` has no transition with the guard `r0.touchin`",
+            "its guards are `",
+        ),
+        ("Explorin: r0.touching", "there is no state `Explorin`", "did you mean `Exploring`?"),
+        ("Qqqqqqq", "there is no state `Qqqqqqq`", "the states are `Exploring`"),
+    ] {
+        let (shown, faults) = Breakpoints::new(&source, &["time > 1 s".to_owned(), text.to_owned()]).unwrap_err();
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        assert_eq!(faults[0].message, message);
+        assert!(faults[0].hints[0].starts_with(hint), "{:?}", faults[0].hints);
+        // The place is in what was written, in the first line of it.
+        assert_eq!((shown.name.as_str(), shown.slice(shown.part_span(0))), ("--break", text));
+        assert_eq!(shown.line_column(faults[0].primary.span.start).line, 1);
+        assert_eq!(shown.part_at(faults[0].primary.span.end), 0);
+    }
+}
+
+#[test]
+fn an_error_in_a_breakpoint_refers_to_the_policy_where_it_is() {
+    let source = Source::new("policy.fsm", THESIS);
+    for text in ["speed", "r0.touchin", "time > ", "(time > 1 s", "r0.tip_at(", "both(r0)"] {
+        let (shown, faults) = Breakpoints::new(&source, &[text.to_owned()]).unwrap_err();
+        for fault in &faults {
+            assert_eq!(shown.part_at(fault.primary.span.start), 0, "{fault:?}");
+            for label in &fault.secondary {
+                assert!(shown.text.get(label.span.start..label.span.end).is_some(), "{fault:?}");
+            }
+        }
+        assert!(!faults.is_empty());
+    }
+}

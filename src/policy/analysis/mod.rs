@@ -27,11 +27,13 @@ mod unknown;
 mod unused;
 mod witness;
 
-use crate::diagnostic::Diagnostic;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostic, Span};
 use vibrissa_runtime::machine;
 
 use super::ast::{self, Behaviour};
-use super::expand::Instance;
 use super::load::Files;
 use super::lower::Lowered;
 use contract::Proofs;
@@ -71,7 +73,9 @@ pub(super) fn take_proved(files: &mut Files, lowered: &mut Lowered) -> Vec<Prove
     take(None, &mut lowered.program.contracts, &mut files.main.contracts, &machine);
     let of_states = lowered.program.states.iter_mut().zip(&mut files.machine.states).zip(&states);
     for ((state, written), is_proved) in of_states {
-        take(Some(&state.name), &mut state.contracts, &mut written.contracts, is_proved);
+        if is_proved.contains(&true) {
+            take(Some(&state.name), &mut state.contracts, Arc::make_mut(&mut written.contracts), is_proved);
+        }
     }
     proved
 }
@@ -112,17 +116,25 @@ pub(super) fn warnings(files: &Files, lowered: &Lowered) -> Vec<Diagnostic> {
 /// The warnings about the text of the policy itself. One about a behaviour counts only if it holds for every copy.
 fn in_all_copies(files: &Files, warnings: &[Diagnostic]) -> Vec<Diagnostic> {
     let own_end = files.libraries.iter().map(|library| library.name.span.start).min().unwrap_or(usize::MAX);
-    let mut kept: Vec<Diagnostic> = Vec::with_capacity(warnings.len());
+    // There may be thousands of copies, and of warnings about each.
+    let mut uses: HashMap<Span, usize> = HashMap::new();
+    for instance in files.machine.instances.iter().filter(|instance| instance.user.is_some()) {
+        *uses.entry(instance.name.span).or_default() += 1;
+    }
+    let mut counts: HashMap<(&'static str, Span), usize> = HashMap::new();
     for warning in warnings {
-        let is_same = |other: &&Diagnostic| (other.code, other.primary.span) == (warning.code, warning.primary.span);
+        *counts.entry((warning.code, warning.primary.span)).or_default() += 1;
+    }
+    let mut kept = Vec::new();
+    for warning in warnings {
+        // The first of those about the same stands for all.
+        let Some(count) = counts.remove(&(warning.code, warning.primary.span)) else { continue };
         let is_within =
             |behaviour: &&Behaviour| (behaviour.span.start..behaviour.span.end).contains(&warning.primary.span.start);
-        let copies = files.main.behaviours.iter().find(is_within).map_or(1, |behaviour| {
-            let used = |instance: &&Instance| instance.user.is_some() && instance.name.span == behaviour.name.span;
-            files.machine.instances.iter().filter(used).count()
-        });
-        let is_whole = warning.code == "P0507" || warnings.iter().filter(is_same).count() >= copies;
-        if warning.primary.span.start < own_end && is_whole && !kept.iter().any(|other| is_same(&other)) {
+        let behaviour = files.main.behaviours.iter().find(is_within);
+        let copies = behaviour.map_or(1, |behaviour| uses.get(&behaviour.name.span).copied().unwrap_or_default());
+        let is_whole = warning.code == "P0507" || count >= copies;
+        if warning.primary.span.start < own_end && is_whole {
             kept.push(warning.clone());
         }
     }

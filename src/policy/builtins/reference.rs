@@ -199,7 +199,7 @@ fn behaviour(page: &mut String, (module, source): (&str, &Source), item: &Behavi
          `vibrissa graph policies/std/{module}.fsm --state {name}{depth}` draws it:\n\n\
          ![Statechart of {name}](pictures/behaviours/{name}.svg)\n\n| exit | meaning |\n|---|---|\n"
     );
-    for exit in &root.exits {
+    for exit in root.exits.iter() {
         let values =
             exit.arguments.iter().map(|one| format!("{}: {}", one.name.text, source.slice(one.type_name.span())));
         let values = values.collect::<Vec<_>>().join(", ");

@@ -9,6 +9,10 @@ use crate::policy::lower::{Origin, Origins};
 
 use super::condition::{Comparison, Condition, Leaf};
 
+/// The maximum number of parts of a condition that are divided. Arguments share their values, so that a condition may have more parts
+/// than operations.
+const PART_LIMIT: usize = 1000;
+
 /// Builds the conditions of a program that is not optimised: every value has a register of its own.
 pub(super) struct Builder<'p> {
     pub(super) program: &'p Program,
@@ -27,30 +31,33 @@ impl Builder<'_> {
     pub(super) fn condition_in(&self, code: &machine::Block, truth: Register) -> Condition {
         let code = self.program.code.get(code.start as usize..code.end as usize).unwrap_or_default();
         let results = code.iter().filter_map(|&op| Some((op.bool_result()?, op))).collect();
-        self.node(&results, truth, None, Negation::default())
+        self.node(&results, truth, None, Negation::default(), &mut { PART_LIMIT })
     }
 
-    /// The condition in a register. `outer` is the bool that it is a part of.
+    /// The condition in a register. `outer` is the bool that it is a part of. `left` is the number of parts that may still be divided.
     fn node(
         &self,
         results: &HashMap<Register, Op>,
         register: Register,
         outer: Option<Origin>,
         negation: Negation,
+        left: &mut usize,
     ) -> Condition {
+        let may_divide = *left > 0;
+        *left = left.saturating_sub(1);
         let origin = self.origins.get(register).or(outer);
         let dimension = origin.and_then(|origin| origin.compared);
         let kind = match results.get(&register) {
-            Some(&Op::And { a, b, .. }) => {
-                return joined([a, b].map(|part| self.node(results, part, origin, negation)), !negation.of_value);
+            Some(&Op::And { a, b, .. }) if may_divide => {
+                return joined([a, b].map(|part| self.node(results, part, origin, negation, left)), !negation.of_value);
             }
-            Some(&Op::Or { a, b, .. }) => {
-                return joined([a, b].map(|part| self.node(results, part, origin, negation)), negation.of_value);
+            Some(&Op::Or { a, b, .. }) if may_divide => {
+                return joined([a, b].map(|part| self.node(results, part, origin, negation, left)), negation.of_value);
             }
-            Some(&Op::Not { a, .. }) => {
+            Some(&Op::Not { a, .. }) if may_divide => {
                 // The text of `a != b` contains its negation.
                 let of_text = if self.origins.get(a).is_some() { !negation.of_text } else { negation.of_text };
-                return self.node(results, a, origin, Negation { of_value: !negation.of_value, of_text });
+                return self.node(results, a, origin, Negation { of_value: !negation.of_value, of_text }, left);
             }
             Some(&(Op::Less { a, b, .. } | Op::LessOrEqual { a, b, .. })) => {
                 dimension.map(|dimension| (a, b, false, dimension))

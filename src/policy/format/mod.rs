@@ -77,7 +77,11 @@ const WITHIN_ITEMS: [&str; 7] = ["in", "and", "or", "not", "true", "false", "bod
 /// follows the end of the item, or directly follows its opening brace.
 pub(super) fn comment_behind(line: &str) -> Option<&str> {
     let (mut open, mut is_opened) = (0_usize, false);
-    for token in token::tokens(line) {
+    // One token after the other, because the line may be as long as the text.
+    let (mut tokens, mut at) = (Vec::new(), 0);
+    while let Some((token, end)) = token::next(line, at, &tokens) {
+        at = end;
+        tokens.push(token);
         match token.kind {
             token::Kind::Comment => return (open == 0 || is_opened).then_some(token.text),
             token::Kind::Keyword if open == 0 && !WITHIN_ITEMS.contains(&token.text) => return None,

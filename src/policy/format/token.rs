@@ -44,40 +44,43 @@ impl Token<'_> {
 
 /// The tokens of any text, valid or not.
 pub(in crate::policy) fn tokens(text: &str) -> Vec<Token<'_>> {
-    let mut tokens: Vec<Token<'_>> = Vec::new();
-    let mut at = 0;
-    loop {
-        let rest = &text[at..];
-        let blanks = &rest[..rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n']).len()];
-        let rest = &rest[blanks.len()..];
-        let Some(first) = rest.chars().next() else {
-            return tokens;
-        };
-        let after_number =
-            tokens.last().is_some_and(|last| last.kind == Kind::Number) && blanks.bytes().all(|blank| blank == b' ');
-        let (kind, length) = match first {
-            '#' => (Kind::Comment, rest.find('\n').unwrap_or(rest.len())),
-            '"' => (Kind::Text, rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2)),
-            '0'..='9' => (Kind::Number, number(rest)),
-            _ if let Some(length) = contextual_word(rest, &tokens) => (Kind::Keyword, length),
-            _ if after_number && unit(rest) > 0 => (Kind::Unit, unit(rest)),
-            _ if is_family_due(&tokens) && is_word(first) => (Kind::Name, family(rest)),
-            _ if is_word(first) => {
-                let length = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
-                (if is_keyword(&rest[..length]) { Kind::Keyword } else { Kind::Name }, length)
-            }
-            _ => {
-                let long = LONG_MARKS.iter().find(|&&mark| rest.starts_with(mark));
-                (Kind::Mark, long.map_or(first.len_utf8(), |mark| mark.len()))
-            }
-        };
-        let start = at + blanks.len();
-        at = start + length;
-        let text = &rest[..length];
-        let text = if kind == Kind::Comment { text.trim_end_matches([' ', '\t', '\r']) } else { text };
-        let line_ends = blanks.bytes().filter(|&blank| blank == b'\n').count();
-        tokens.push(Token { kind, text, start, apart: !blanks.is_empty(), line_ends });
+    let (mut tokens, mut at) = (Vec::new(), 0);
+    while let Some((token, end)) = next(text, at, &tokens) {
+        tokens.push(token);
+        at = end;
     }
+    tokens
+}
+
+/// The token at or behind `at`, and the end of its text, after those before it.
+pub(in crate::policy) fn next<'t>(text: &'t str, at: usize, tokens: &[Token<'t>]) -> Option<(Token<'t>, usize)> {
+    let rest = &text[at..];
+    let blanks = &rest[..rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n']).len()];
+    let rest = &rest[blanks.len()..];
+    let first = rest.chars().next()?;
+    let after_number =
+        tokens.last().is_some_and(|last| last.kind == Kind::Number) && blanks.bytes().all(|blank| blank == b' ');
+    let (kind, length) = match first {
+        '#' => (Kind::Comment, rest.find('\n').unwrap_or(rest.len())),
+        '"' => (Kind::Text, rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2)),
+        '0'..='9' => (Kind::Number, number(rest)),
+        _ if let Some(length) = contextual_word(rest, tokens) => (Kind::Keyword, length),
+        _ if after_number && unit(rest) > 0 => (Kind::Unit, unit(rest)),
+        _ if is_family_due(tokens) && is_word(first) => (Kind::Name, family(rest)),
+        _ if is_word(first) => {
+            let length = rest.find(|letter| !is_word(letter)).unwrap_or(rest.len());
+            (if is_keyword(&rest[..length]) { Kind::Keyword } else { Kind::Name }, length)
+        }
+        _ => {
+            let long = LONG_MARKS.iter().find(|&&mark| rest.starts_with(mark));
+            (Kind::Mark, long.map_or(first.len_utf8(), |mark| mark.len()))
+        }
+    };
+    let start = at + blanks.len();
+    let text = &rest[..length];
+    let text = if kind == Kind::Comment { text.trim_end_matches([' ', '\t', '\r']) } else { text };
+    let line_ends = blanks.bytes().filter(|&blank| blank == b'\n').count();
+    Some((Token { kind, text, start, apart: !blanks.is_empty(), line_ends }, start + length))
 }
 
 /// Length of a keyword at the beginning of `text` that is a name anywhere else: `contour` before a name or `of`,

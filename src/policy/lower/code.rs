@@ -15,6 +15,8 @@ pub(super) struct Code {
     pub(super) initial: Vec<f64>,
     /// Registers of constants, by their bits.
     constants: BTreeMap<u64, Register>,
+    /// The bits of the constants in the order of their registers.
+    constant_bits: Vec<u64>,
     /// The expressions whose values are in the registers.
     pub(super) origins: Origins,
     /// The plots and messages.
@@ -74,6 +76,7 @@ impl Code {
             ops: Vec::new(),
             initial: Vec::new(),
             constants: BTreeMap::new(),
+            constant_bits: Vec::new(),
             origins: Origins::default(),
             outputs: Outputs::default(),
             logged: Vec::new(),
@@ -96,7 +99,16 @@ impl Code {
     pub(super) fn rewind(&mut self, mark: Mark) {
         self.ops.truncate(mark.ops);
         self.initial.truncate(mark.registers);
-        self.constants.retain(|_, register| usize::from(*register) < mark.registers);
+        let constants = &self.constants;
+        let is_behind =
+            |bits: &mut u64| constants.get(bits).is_none_or(|&register| usize::from(register) >= mark.registers);
+        let mut behind = Vec::new();
+        while let Some(bits) = self.constant_bits.pop_if(is_behind) {
+            behind.push(bits);
+        }
+        for bits in behind {
+            self.constants.remove(&bits);
+        }
         self.origins.0.truncate(mark.registers);
         self.outputs.plots.truncate(mark.plots);
         self.outputs.messages.truncate(mark.messages);
@@ -126,6 +138,7 @@ impl Code {
         {
             *cell = value;
             self.constants.insert(value.to_bits(), register);
+            self.constant_bits.push(value.to_bits());
         }
         register
     }

@@ -3,6 +3,8 @@
 //! A record has its fields in consecutive registers. A list has the number of its elements, and behind it the elements from
 //! the newest on. Both are values: no operation changes them, and memory is set as a whole.
 
+use std::collections::{HashMap, HashSet};
+
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Argument, Compound, Content, Expression, File, Name, TypeName};
 use crate::policy::builtins::LIST_MEMBERS;
@@ -16,7 +18,7 @@ use super::call::usage;
 use super::scope::Scope;
 
 /// The maximum number of registers of a value.
-const WIDTH_LIMIT: u16 = 64;
+pub(super) const WIDTH_LIMIT: u16 = 64;
 /// The maximum number of elements of a list.
 const LENGTH_LIMIT: u16 = 16;
 
@@ -30,10 +32,10 @@ pub(super) struct Layout<'f> {
 
 #[derive(Debug, Clone)]
 enum Parts<'f> {
-    /// The fields. `None` for a field whose type has an error, which has been reported.
-    Record(Vec<(&'f Name, Option<Type>)>),
+    /// The fields.
+    Record(Vec<(&'f Name, Type)>),
     /// The type of the elements, and their maximum number.
-    List { element: Option<Type>, most: u16 },
+    List { element: Type, most: u16 },
 }
 
 impl Layout<'_> {
@@ -48,74 +50,109 @@ impl<'f> Compiler<'f> {
         let all: Vec<&'f File> = std::iter::once(&files.main).chain(&files.libraries).collect();
         for (number, file) in all.iter().enumerate() {
             for item in &file.compounds {
-                self.layout(number, item, &mut Vec::new());
+                self.layout(number, item);
             }
         }
     }
 
-    /// Determines the registers of a type. `around` are the types that contain it.
-    fn layout(&mut self, file: usize, item: &'f Compound, around: &mut Vec<Span>) -> Option<Type> {
-        if let Some(known) = self.layouts.get(&item.name.span) {
-            return Some(known.r#type());
+    /// Determines the registers of a type, and before those of its parts. Without recursion, because a chain of types may be as long as
+    /// the text.
+    fn layout(&mut self, file: usize, item: &'f Compound) {
+        let mut is_open = HashSet::from([item.name.span]);
+        // The types that wait for their parts, each with its parts that have not been looked at.
+        let mut open = vec![(file, item, item.types())];
+        if self.layouts.contains_key(&item.name.span) {
+            return;
         }
-        if around.contains(&item.name.span) {
-            let message = format!("`{}` contains itself", item.name.text);
-            let diagnostic = Diagnostic::error("P0401", message, item.name.span, "has no finite size");
-            self.report(diagnostic.hint("a record or a list can only contain other types"));
-            return None;
+        while let Some((file, item, types)) = open.last_mut() {
+            let (file, item) = (*file, *item);
+            let Some(part) = types.next() else {
+                let layout = self.within(file, |compiler| compiler.layout_of_parts(item));
+                self.layouts.insert(item.name.span, layout);
+                open.pop();
+                continue;
+            };
+            let part = self.within(file, |compiler| compiler.compound_named(part));
+            let part = part.filter(|(_, part)| !self.layouts.contains_key(&part.name.span));
+            if let Some((file, part)) = part
+                && is_open.insert(part.name.span)
+            {
+                open.push((file, part, part.types()));
+            }
         }
-        around.push(item.name.span);
-        let parts = self.within(file, |compiler| match &item.content {
+    }
+
+    /// The record or list with a name in the current file, and the number of its file.
+    fn compound_named(&self, name: &TypeName) -> Option<(usize, &'f Compound)> {
+        let is_plain = name.of.is_none() && name.factors.is_empty();
+        self.names().compounds.get(name.base.text.as_str()).copied().filter(|_| is_plain)
+    }
+
+    /// True if a name means a record or a list with an error, which has been reported.
+    pub(super) fn has_no_layout(&self, name: &TypeName) -> bool {
+        self.compound_named(name).is_some_and(|(_, item)| matches!(self.layouts.get(&item.name.span), Some(None)))
+    }
+
+    /// The layout of a type, if its parts have one and it is not too large.
+    fn layout_of_parts(&mut self, item: &'f Compound) -> Option<Layout<'f>> {
+        let parts = match &item.content {
             Content::Record(fields) => {
-                let mut known: Vec<(&'f Name, Option<Type>)> = Vec::with_capacity(fields.len());
+                let mut known: HashMap<&'f str, Span> = HashMap::with_capacity(fields.len());
+                let mut parts: Vec<Option<(&'f Name, Type)>> = Vec::with_capacity(fields.len());
                 for field in fields {
-                    if let Some((first, _)) = known.iter().find(|(name, _)| name.text == field.name.text) {
+                    if let Some(&first) = known.get(field.name.text.as_str()) {
                         let message = format!("`{}` has the field `{}` twice", item.name.text, field.name.text);
                         let diagnostic = Diagnostic::error("P0202", message, field.name.span, "again here");
-                        compiler.report(diagnostic.note(first.span, "first here").hint("keep one of them"));
+                        self.report(diagnostic.note(first, "first here").hint("keep one of them"));
                     }
-                    let r#type = compiler.part_type(&field.type_name, around);
-                    if let (Some(r#type), Some(types)) = (r#type, &mut compiler.types) {
+                    known.entry(&field.name.text).or_insert(field.name.span);
+                    let r#type = self.part_type(&field.type_name);
+                    if let (Some(r#type), Some(types)) = (r#type, &mut self.types) {
                         types.insert(field.name.span, r#type);
                     }
-                    known.push((&field.name, r#type));
+                    parts.push(r#type.map(|r#type| (&field.name, r#type)));
                 }
-                Parts::Record(known)
+                Parts::Record(parts.into_iter().collect::<Option<_>>()?)
             }
             Content::List { most, element } => {
-                let element = compiler.part_type(element, around);
-                if let (Some(element), Some(types)) = (element, &mut compiler.types) {
+                let element = self.part_type(element);
+                if let (Some(element), Some(types)) = (element, &mut self.types) {
                     types.insert(item.name.span, element);
                 }
-                Parts::List { element, most: compiler.most(most) }
+                let most = self.most(most);
+                Parts::List { element: element?, most: most? }
             }
-        });
-        around.pop();
-        let width = match &parts {
-            Parts::Record(fields) => fields.iter().filter_map(|(_, r#type)| *r#type).map(Type::width).sum(),
-            Parts::List { element, most } => 1 + most * element.map_or(1, Type::width),
         };
-        if width > WIDTH_LIMIT {
+        // No part is wider than the limit, and no text has so many parts that the sum is too large.
+        let width: usize = match &parts {
+            Parts::Record(fields) => fields.iter().map(|(_, r#type)| usize::from(r#type.width())).sum(),
+            Parts::List { element, most } => 1 + usize::from(*most) * usize::from(element.width()),
+        };
+        let fitting = u16::try_from(width).ok().filter(|width| *width <= WIDTH_LIMIT);
+        let Some(width) = fitting else {
             let message = format!("`{}` has {width} numbers", item.name.text);
             let diagnostic = Diagnostic::error("P0417", message, item.name.span, "exceeds the limit");
             self.report(diagnostic.hint(format!(
                 "a record or a list has at most {WIDTH_LIMIT}; a vector is two, and a list has one more"
             )));
-        }
-        let layout = Layout { name: &item.name, width: width.min(WIDTH_LIMIT), parts };
-        let r#type = layout.r#type();
-        self.layouts.insert(item.name.span, layout);
-        Some(r#type)
+            return None;
+        };
+        Some(Layout { name: &item.name, width, parts })
     }
 
-    /// The type of a field or an element.
-    fn part_type(&mut self, name: &TypeName, around: &mut Vec<Span>) -> Option<Type> {
-        let is_plain = name.of.is_none() && name.factors.is_empty();
-        let compound = self.names().compounds.get(name.base.text.as_str()).copied().filter(|_| is_plain);
-        let found = match compound {
-            Some((file, item)) => self.layout(file, item, around),
-            None => self.type_of(name),
-        };
+    /// The type of a field or an element. `None` if it has an error, which has been reported.
+    fn part_type(&mut self, name: &TypeName) -> Option<Type> {
+        if let Some((_, part)) = self.compound_named(name) {
+            let Some(layout) = self.layouts.get(&part.name.span) else {
+                // It waits for this one.
+                let message = format!("`{}` contains itself", part.name.text);
+                let diagnostic = Diagnostic::error("P0401", message, part.name.span, "has no finite size");
+                self.report(diagnostic.hint("a record or a list can only contain other types"));
+                return None;
+            };
+            return layout.as_ref().map(Layout::r#type);
+        }
+        let found = self.type_of(name);
         if let Some(Type::Monitor(_)) = found {
             let message = "a monitor cannot be a part of a record or a list";
             let diagnostic = Diagnostic::error("P0204", message, name.base.span, "is a monitor");
@@ -126,14 +163,14 @@ impl<'f> Compiler<'f> {
     }
 
     /// The maximum number of elements of a list.
-    fn most(&mut self, given: &Name) -> u16 {
-        let most: Option<u16> = given.text.parse().ok();
-        most.filter(|most| (1..=LENGTH_LIMIT).contains(most)).unwrap_or_else(|| {
+    fn most(&mut self, given: &Name) -> Option<u16> {
+        let most = given.text.parse().ok().filter(|most| (1..=LENGTH_LIMIT).contains(most));
+        if most.is_none() {
             let message = format!("a list has from 1 to {LENGTH_LIMIT} elements");
             let diagnostic = Diagnostic::error("P0417", message, given.span, "not possible");
             self.report(diagnostic.hint("write a whole number in this range"));
-            1
-        })
+        }
+        most
     }
 
     /// Lowers `Edge(place, way)`, or an empty list, `Places()`.
@@ -167,7 +204,7 @@ impl<'f> Compiler<'f> {
             return None;
         }
         let inner = self.arguments(scope, file, &item.name, fields, values, span)?;
-        let layout = self.layouts.get(&item.name.span)?.clone();
+        let layout = self.known_layout(item.name.span)?.clone();
         let to = self.code.allocate(layout.width);
         match layout.parts {
             Parts::Record(fields) => {
@@ -181,16 +218,16 @@ impl<'f> Compiler<'f> {
             Parts::List { element, most } => {
                 let zero = self.code.constant(0.0);
                 self.code.push(Op::Copy { to, a: zero });
-                let unknown = self.unknown(element?);
+                let unknown = self.unknown(element);
                 for place in 0..most {
                     for (part, &a) in (0..).zip(&unknown) {
-                        let width = element?.width();
+                        let width = element.width();
                         self.code.push(Op::Copy { to: to + 1 + place * width + part, a });
                     }
                 }
             }
         }
-        Some(Value { r#type: self.layouts.get(&item.name.span)?.r#type(), register: to })
+        Some(Value { r#type: self.known_layout(item.name.span)?.r#type(), register: to })
     }
 
     /// The registers of an element that a list does not have: numbers are NaN, and everything else is 0.
@@ -219,7 +256,7 @@ impl<'f> Compiler<'f> {
         name: &'f Name,
         values: Option<&'f [Expression]>,
     ) -> Option<Value> {
-        let layout = self.layouts.get(&declared)?.clone();
+        let layout = self.known_layout(declared)?.clone();
         match layout.parts {
             Parts::Record(fields) => {
                 if values.is_some() {
@@ -229,21 +266,22 @@ impl<'f> Compiler<'f> {
                 let mut register = owner.register;
                 for (field, r#type) in &fields {
                     if field.text == name.text {
-                        return r#type.map(|r#type| Value { r#type, register });
+                        return Some(Value { r#type: *r#type, register });
                     }
-                    register += r#type.map_or(0, Type::width);
+                    register += r#type.width();
                 }
                 let known: Vec<&str> = fields.iter().map(|(field, _)| field.text.as_str()).collect();
                 self.no_member(layout.name, name, &known);
                 None
             }
-            Parts::List { element, most } => {
-                self.list_member(scope, owner, (layout.name, element?, most), name, values)
-            }
+            Parts::List { element, most } => self.list_member(scope, owner, (layout.name, element, most), name, values),
         }
     }
 
     fn no_member(&mut self, of: &Name, name: &Name, known: &[&str]) {
+        if self.is_told("P0203", name.span) {
+            return;
+        }
         let message = format!("a `{}` has no `{}`", of.text, name.text);
         let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
         let diagnostic = did_you_mean(diagnostic, &name.text, known.iter().copied());
@@ -344,35 +382,48 @@ impl<'f> Compiler<'f> {
         to
     }
 
+    /// The layout of the type with this declaration.
+    pub(super) fn known_layout(&self, declared: Span) -> Option<&Layout<'f>> {
+        self.layouts.get(&declared)?.as_ref()
+    }
+
     /// The values with names, with the parts of records and lists instead of these: `edge.place`, `seen.count`, `seen.newest`.
     pub(super) fn parts(&self, values: Vec<(String, Value)>) -> Vec<(String, Value)> {
         let mut parts = Vec::with_capacity(values.len());
-        for (name, value) in values {
-            let Type::Compound(of) = value.r#type else {
+        for (mut name, value) in values {
+            // The parts that are left, the last one first: each with its name and the length of the name that precedes it.
+            let mut open = vec![(0, "", value)];
+            if !matches!(value.r#type, Type::Compound(_)) {
                 parts.push((name, value));
                 continue;
-            };
-            let Some(layout) = self.layouts.get(&of.declared) else { continue };
-            let prefix = if name.is_empty() { name } else { format!("{name}.") };
-            let mut register = value.register;
-            let inner: Vec<(String, Value)> = match &layout.parts {
-                Parts::Record(fields) => fields
-                    .iter()
-                    .filter_map(|(field, r#type)| {
-                        let value = Value { r#type: (*r#type)?, register };
-                        register += value.r#type.width();
-                        Some((format!("{prefix}{}", field.text), value))
-                    })
-                    .collect(),
-                Parts::List { element, .. } => {
-                    let count = Value { r#type: Type::NUMBER, register };
-                    let newest = element.map(|r#type| Value { r#type, register: register + 1 });
-                    std::iter::once((format!("{prefix}count"), count))
-                        .chain(newest.map(|value| (format!("{prefix}newest"), value)))
-                        .collect()
+            }
+            let whole = name.len();
+            while let Some((len, own, value)) = open.pop() {
+                name.truncate(whole + len);
+                if !name.is_empty() && !own.is_empty() {
+                    name.push('.');
                 }
-            };
-            parts.extend(self.parts(inner));
+                name.push_str(own);
+                let Type::Compound(of) = value.r#type else {
+                    parts.push((name.clone(), value));
+                    continue;
+                };
+                let Some(layout) = self.known_layout(of.declared) else { continue };
+                let (len, first, mut register) = (name.len() - whole, open.len(), value.register);
+                match &layout.parts {
+                    Parts::Record(fields) => {
+                        for (field, r#type) in fields {
+                            open.push((len, field.text.as_str(), Value { r#type: *r#type, register }));
+                            register += r#type.width();
+                        }
+                    }
+                    Parts::List { element, .. } => {
+                        open.push((len, "count", Value { r#type: Type::NUMBER, register }));
+                        open.push((len, "newest", Value { r#type: *element, register: register + 1 }));
+                    }
+                }
+                open[first..].reverse();
+            }
         }
         parts
     }

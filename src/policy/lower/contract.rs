@@ -12,6 +12,9 @@ use vibrissa_runtime::units::Dimension;
 use super::Compiler;
 use super::scope::Scope;
 
+/// The maximum nesting depth of a condition with a margin, so that recursion cannot exhaust the stack.
+const MARGIN_DEPTH_LIMIT: usize = 1000;
+
 impl<'f> Compiler<'f> {
     /// Lowers the contracts of a state or of the machine.
     pub(super) fn contracts(&mut self, scope: &Scope<'f>, contracts: &'f [Contract]) -> Vec<machine::Contract> {
@@ -63,7 +66,7 @@ impl<'f> Compiler<'f> {
         let code = self.code.ops.get(start as usize..)?;
         let results: HashMap<Register, Op> = code.iter().filter_map(|&op| Some((op.bool_result()?, op))).collect();
         let mark = self.code.mark();
-        let margin = self.distance(&results, violated, true);
+        let margin = self.distance(&results, violated, true, 0);
         if margin.is_none() {
             self.code.rewind(mark);
         }
@@ -77,18 +80,24 @@ impl<'f> Compiler<'f> {
         results: &HashMap<Register, Op>,
         register: Register,
         is_negated: bool,
+        depth: usize,
     ) -> Option<(Register, Dimension)> {
+        // Arguments share their values, so that a condition may have more parts than operations.
+        self.work += 1;
+        if self.is_exhausted() || depth > MARGIN_DEPTH_LIMIT {
+            return None;
+        }
         let dimension = self.code.origins.get(register).and_then(|origin| origin.compared);
         let to = self.code.allocate(1);
         let (op, dimension) = match (*results.get(&register)?, dimension) {
-            (Op::Not { a, .. }, _) => return self.distance(results, a, !is_negated),
+            (Op::Not { a, .. }, _) => return self.distance(results, a, !is_negated, depth + 1),
             (Op::Less { a, b, .. } | Op::LessOrEqual { a, b, .. }, Some(dimension)) => {
                 let (a, b) = if is_negated { (a, b) } else { (b, a) };
                 (Op::Subtract { to, a, b }, dimension)
             }
             (op @ (Op::And { a, b, .. } | Op::Or { a, b, .. }), _) => {
-                let first = self.distance(results, a, is_negated)?;
-                let second = self.distance(results, b, is_negated)?;
+                let first = self.distance(results, a, is_negated, depth + 1)?;
+                let second = self.distance(results, b, is_negated, depth + 1)?;
                 if first.1 != second.1 {
                     return None;
                 }

@@ -22,21 +22,25 @@ impl Enumeration {
 }
 
 impl<'f> Compiler<'f> {
-    /// Checks that the values of an enumeration differ.
-    pub(super) fn check_choices(&mut self, item: &Enumeration) {
+    /// Checks that the values of an enumeration differ, and numbers them.
+    pub(super) fn check_choices(&mut self, item: &'f Enumeration) {
+        let mut numbers: HashMap<&'f str, usize> = HashMap::with_capacity(item.values.len());
         for (index, value) in item.values.iter().enumerate() {
-            if let Some(first) = item.values[..index].iter().find(|first| first.text == value.text) {
+            if let Some(&first) = numbers.get(value.text.as_str()) {
                 let message = format!("`{}` has the value `{}` twice", item.name.text, value.text);
                 let diagnostic = Diagnostic::error("P0202", message, value.span, "again here");
-                self.report(diagnostic.note(first.span, "first here").hint("keep one of them"));
+                self.report(diagnostic.note(item.values[first].span, "first here").hint("keep one of them"));
             }
+            numbers.entry(&value.text).or_insert(index);
         }
+        self.choice_numbers.insert(item.name.span, numbers);
     }
 
     /// The number of a value of an enumeration.
     pub(super) fn choice_number(&mut self, item: &Enumeration, value: &Name) -> Option<usize> {
-        let found = item.values.iter().position(|known| known.text == value.text);
-        if found.is_none() {
+        let numbers = self.choice_numbers.get(&item.name.span);
+        let found = numbers.and_then(|numbers| numbers.get(value.text.as_str()).copied());
+        if found.is_none() && !self.is_told("P0203", value.span) {
             let message = format!("`{}` has no value `{}`", item.name.text, value.text);
             let diagnostic = Diagnostic::error("P0203", message, value.span, "unknown value");
             let known = item.names();
@@ -45,6 +49,13 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic.note(item.name.span, "declared here").hint(hint));
         }
         found
+    }
+
+    /// The names of the values of an enumeration, for one parameter, plot or message. Each has its own copy of them, so they count as
+    /// work.
+    pub(super) fn choice_names(&mut self, item: &Enumeration) -> Vec<String> {
+        self.work += item.values.len();
+        if self.is_exhausted() { Vec::new() } else { item.names() }
     }
 
     /// Lowers `Side.left`.
@@ -61,7 +72,7 @@ impl<'f> Compiler<'f> {
         let monitor = || self.names().monitors.get(name.base.text.as_str()).filter(|_| is_plain);
         Type::named(name)
             .or_else(|| own().map(|item| item.r#type()))
-            .or_else(|| Some(self.layouts.get(&compound()?.1.name.span)?.r#type()))
+            .or_else(|| Some(self.known_layout(compound()?.1.name.span)?.r#type()))
             .or_else(|| monitor().map(|(_, content)| Type::Monitor(content.name.span)))
     }
 
@@ -69,7 +80,7 @@ impl<'f> Compiler<'f> {
     pub(super) fn phrase(&self, r#type: Type) -> String {
         let name = match r#type {
             Type::Choice(choices) => self.enumerations.get(&choices.declared).map(|item| &item.name),
-            Type::Compound(of) => self.layouts.get(&of.declared).map(|layout| layout.name),
+            Type::Compound(of) => self.known_layout(of.declared).map(|layout| layout.name),
             Type::Monitor(content) => {
                 self.running.iter().map(|running| &running.content.name).find(|name| name.span == content)
             }

@@ -33,6 +33,9 @@ impl<'f> Compiler<'f> {
     ) -> Option<machine::Target> {
         let instance = self.hierarchy.instances.get(instance)?;
         let Some(exit) = instance.exits.iter().find(|exit| exit.name.text == target.name.text) else {
+            if self.is_told("P0201", target.name.span) {
+                return None;
+            }
             let message = format!("there is no exit `{}`", target.name.text);
             let diagnostic = Diagnostic::error("P0201", message, target.name.span, "unknown exit");
             let known = instance.exits.iter().map(|exit| exit.name.text.as_str());
@@ -86,8 +89,7 @@ impl<'f> Compiler<'f> {
     /// Checks the connections of a state, with unknown values, and discards the code. No transition may lead to some of
     /// them.
     pub(super) fn connections(&mut self, user: usize, state: &'f State) {
-        let instance = self.hierarchy.instances.iter().position(|instance| instance.user == Some(user));
-        let Some(instance) = instance.and_then(|number| self.hierarchy.instances.get(number)) else { return };
+        let Some(instance) = self.hierarchy.content(user) else { return };
         for connection in &state.connections {
             let exit = instance.exits.iter().find(|exit| exit.name.text == connection.exit.text);
             // An unknown exit has been reported.
@@ -111,8 +113,9 @@ impl<'f> Compiler<'f> {
         values: Vec<Meaning>,
     ) -> Option<machine::Target> {
         self.within(self.hierarchy.file(user), |compiler| {
-            let mut scope = compiler.scopes[user].clone();
-            let hidable = scope.len();
+            let outer = &compiler.scopes[user];
+            let hidable = outer.len();
+            let mut scope = Scope::inside(outer, hidable);
             for (name, value) in connection.names.iter().zip(values) {
                 compiler.bind(&mut scope, hidable, name, value);
             }

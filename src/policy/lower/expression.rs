@@ -236,6 +236,9 @@ impl<'f> Compiler<'f> {
         }
         let members = builtins::members(value.r#type);
         let Some(&member) = members.iter().find(|member| member.name == name.text) else {
+            if self.is_told("P0203", name.span) {
+                return None;
+            }
             let message = format!("{} has no `{}`", self.phrase(value.r#type), name.text);
             let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
             let mut diagnostic = did_you_mean(diagnostic, &name.text, members.iter().map(|member| member.name));

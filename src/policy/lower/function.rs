@@ -11,6 +11,9 @@ use super::Compiler;
 use super::call::{Callee, Given, usage};
 use super::scope::Scope;
 
+/// The number of compared names that counts as one visited node.
+const COMPARED_PER_WORK: usize = 64;
+
 impl<'f> Compiler<'f> {
     /// Lowers a call of a built-in function.
     pub(super) fn function(
@@ -226,10 +229,22 @@ impl<'f> Compiler<'f> {
         span: Span,
     ) -> Option<Value> {
         let inner = self.arguments(scope, file, &derived.name, &derived.arguments, values, span)?;
-        self.inlining.push(&derived.name);
-        let value = self.within(file, |compiler| compiler.expression(&inner, &derived.value));
+        self.inlined(&derived.name, |compiler| {
+            compiler.within(file, |compiler| compiler.expression(&inner, &derived.value))
+        })
+    }
+
+    /// Lowers the content of the law or derived value `name`, where it is used. One with an error is not inlined again: each use would
+    /// double the time if its content uses another one twice.
+    pub(super) fn inlined<T>(&mut self, name: &'f Name, write: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        let faults = self.faults;
+        self.inlining.push(name);
+        let written = write(self);
         self.inlining.pop();
-        value
+        if self.faults > faults {
+            self.erroneous.insert(name.span);
+        }
+        written
     }
 
     /// The scope of a law or derived value of a file with `values` for its arguments. `None` if they do not fit, or if it has an
@@ -251,6 +266,8 @@ impl<'f> Compiler<'f> {
             ));
             return None;
         }
+        // Each value with a name is compared with the names of all arguments.
+        self.work += values.len() * arguments.len() / COMPARED_PER_WORK;
         let what = format!("`{}`", name.text);
         let given = match (Callee { what: &what, label: "used here" }).values(arguments, values, span) {
             Ok(given) => given,
@@ -262,12 +279,20 @@ impl<'f> Compiler<'f> {
         };
         let mut inner = Scope::default();
         let mut complete = true;
+        // The defaults of one with an error have been checked.
+        let is_erroneous = self.erroneous.contains(&name.span);
         for (argument, Given { value, is_default }) in arguments.iter().zip(given) {
             // An unknown type is reported where the law is declared.
             let r#type = self.within(file, |compiler| compiler.named_type(&argument.type_name));
             let value = match r#type {
+                Some(_) if is_default && is_erroneous => None,
                 Some(r#type) if is_default => {
-                    self.within(file, |compiler| compiler.expect(&Scope::default(), value, r#type))
+                    let faults = self.faults;
+                    let value = self.within(file, |compiler| compiler.expect(&Scope::default(), value, r#type));
+                    if self.faults > faults {
+                        self.erroneous.insert(name.span);
+                    }
+                    value
                 }
                 Some(r#type) => self.expect(scope, value, r#type),
                 None => self.expression(scope, value).and(None),

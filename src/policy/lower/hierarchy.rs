@@ -1,5 +1,7 @@
 //! The state hierarchy.
 
+use std::collections::HashMap;
+
 use crate::policy::ast::State;
 use crate::policy::expand::{Expanded, Instance};
 
@@ -11,6 +13,8 @@ pub(super) struct Hierarchy<'f> {
     pub(super) instances: &'f [Instance],
     /// For every state, its direct inner states.
     inner: Vec<Vec<usize>>,
+    /// The instance of the behaviour that is the content of a state.
+    contents: HashMap<usize, &'f Instance>,
 }
 
 impl<'f> Hierarchy<'f> {
@@ -22,7 +26,13 @@ impl<'f> Hierarchy<'f> {
                 inner[parent].push(index);
             }
         }
-        Self { states, instances: &expanded.instances, inner }
+        let contents = expanded.instances.iter().rev().filter_map(|instance| Some((instance.user?, instance)));
+        Self { states, instances: &expanded.instances, inner, contents: contents.collect() }
+    }
+
+    /// The instance of the behaviour that is the content of a state.
+    pub(super) fn content(&self, state: usize) -> Option<&'f Instance> {
+        self.contents.get(&state).copied()
     }
 
     /// The instance of the state `from`. The machine's own is 0.

@@ -1,11 +1,43 @@
 //! Memory of states and of the machine, kept from tick to tick.
 
+use std::cell::OnceCell;
+use std::collections::HashSet;
+use std::ops::Deref;
+
 use crate::policy::ast::{Expression, File, Name};
 use crate::policy::types::Value;
 use vibrissa_runtime::machine::Block;
 
 use super::Compiler;
 use super::scope::{Meaning, Scope};
+
+/// The names of memory that the current statements can set.
+#[derive(Default)]
+pub(super) struct Variables<'f> {
+    names: Vec<&'f Name>,
+    /// The same names, to find one. Determined when it is needed, because thousands of states may have thousands of names each.
+    texts: OnceCell<HashSet<&'f str>>,
+}
+
+impl Variables<'_> {
+    pub(super) fn contains(&self, name: &str) -> bool {
+        self.texts.get_or_init(|| self.names.iter().map(|known| known.text.as_str()).collect()).contains(name)
+    }
+}
+
+impl<'f> Deref for Variables<'f> {
+    type Target = [&'f Name];
+
+    fn deref(&self) -> &[&'f Name] {
+        &self.names
+    }
+}
+
+impl<'f> FromIterator<&'f Name> for Variables<'f> {
+    fn from_iter<I: IntoIterator<Item = &'f Name>>(names: I) -> Self {
+        Self { names: names.into_iter().collect(), texts: OnceCell::new() }
+    }
+}
 
 impl<'f> Compiler<'f> {
     /// Lowers the initialisation of the memory of the machine and of its monitors, and the statements of the monitors.
@@ -14,6 +46,7 @@ impl<'f> Compiler<'f> {
         let mut scope = Scope::default();
         // Those of parts that were checked alone end with these.
         self.running.clear();
+        self.monitor_registers.clear();
         let start = self.code.here();
         let mut monitors = file.monitors.iter().peekable();
         for (name, value) in &file.memory {

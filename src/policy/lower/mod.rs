@@ -28,13 +28,15 @@ mod structure;
 mod target;
 mod test;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, FAULT_LIMIT, Span};
 use vibrissa_runtime::machine::{Program, Register};
 
 use super::analysis::ProvedContract;
-use super::ast::{Argument, Enumeration, Expression, Name, Statement, TypeName};
+use super::ast::{Argument, Enumeration, Expression, Monitor, Name, Statement, TypeName};
 use super::load::Files;
 use super::suggestion::did_you_mean;
 use super::test::{FigureRegister, PolicyTest};
@@ -42,6 +44,7 @@ use super::types::{DIMENSIONS, PLAIN_TYPES, Type, Value, dimension};
 use code::Code;
 use compound::Layout;
 use hierarchy::Hierarchy;
+use memory::Variables;
 use monitor::Running;
 use names::Names;
 use scope::{Meaning, Scope, in_the_standard_library};
@@ -134,6 +137,9 @@ const DEPTH_LIMIT: usize = 250;
 /// of compilation.
 const WORK_LIMIT: usize = 500_000;
 
+/// The code of an error that depends on where a law is used, so that other uses of the law may be valid.
+const WRONG_PLACE: &str = "P0407";
+
 /// A state as the target of transitions.
 #[derive(Clone)]
 struct StateEntry {
@@ -155,12 +161,19 @@ struct Commandless {
 struct Compiler<'f> {
     code: Code,
     diagnostics: Vec<Diagnostic>,
+    /// Number of errors, also repeated ones, that do not depend on where a law or a derived value is used.
+    faults: usize,
     /// The names of each file, the policy first.
     files: Vec<Names<'f>>,
     /// The enumerations of all files, by the span of their names.
     enumerations: HashMap<Span, &'f Enumeration>,
-    /// The registers of the records and lists of all files, by the span of their names.
-    layouts: HashMap<Span, Layout<'f>>,
+    /// The numbers of the values of all enumerations, by the span of their names.
+    choice_numbers: HashMap<Span, HashMap<&'f str, usize>>,
+    /// The monitors of all files that others can use, by the span of their names, each with the number of its file.
+    monitors: HashMap<Span, (usize, &'f Monitor)>,
+    /// The registers of the records and lists of all files, by the span of their names. `None` for a type with an error, which has been
+    /// reported.
+    layouts: HashMap<Span, Option<Layout<'f>>>,
     /// The number of the current file.
     current_file: usize,
     /// The types of names, if they are requested.
@@ -169,7 +182,7 @@ struct Compiler<'f> {
     states: HashMap<(usize, &'f str), StateEntry>,
     hierarchy: Hierarchy<'f>,
     /// For each state, the names that it knows.
-    scopes: Vec<Scope<'f>>,
+    scopes: Vec<Rc<Scope<'f>>>,
     memory: Memory,
     /// Declarations of laws and derived values with errors.
     erroneous: HashSet<Span>,
@@ -180,16 +193,24 @@ struct Compiler<'f> {
     /// The memory of the state whose memory is being declared.
     declaring: &'f [(Name, Expression)],
     /// The memory of the machine, of the current state and of its outer states.
-    variables: Vec<&'f Name>,
+    variables: Variables<'f>,
     /// The monitors of the machine, or unknown ones of a part that is checked alone.
     running: Vec<Running<'f>>,
     /// The names of the machine: its memory and its monitors.
-    own_names: Scope<'f>,
+    own_names: Rc<Scope<'f>>,
+    /// The first registers of the memory of monitors, and the number of registers.
+    monitor_registers: BTreeMap<Register, u16>,
+    /// Monitors that take themselves as arguments, directly or through others, and those that take such a monitor.
+    endless: HashSet<Span>,
     /// Memory of stateful functions in the current state: the first register, and the number of registers.
     memories: Vec<(Register, u16)>,
     /// The figures that the current expectation reads. `None` outside of tests.
     figures: Option<Vec<FigureRegister>>,
     tests: Vec<PolicyTest>,
+    /// The indices of the states by their names in the whole machine, if a test has asked for one.
+    paths: Option<HashMap<String, usize>>,
+    /// The initial registers of the program, without those of a test.
+    tested: Option<Arc<[f64]>>,
     /// The construct that does not allow commands here, if there is one.
     commandless: Option<Commandless>,
     /// Span of the use of the outermost law that is being inlined.
@@ -212,8 +233,11 @@ impl<'f> Compiler<'f> {
         Self {
             code: Code::new(),
             diagnostics: Vec::new(),
+            faults: 0,
             files: Vec::new(),
             enumerations: HashMap::new(),
+            choice_numbers: HashMap::new(),
+            monitors: HashMap::new(),
             layouts: HashMap::new(),
             current_file: 0,
             types: None,
@@ -225,12 +249,16 @@ impl<'f> Compiler<'f> {
             inlining: Vec::new(),
             state_body: &[],
             declaring: &[],
-            variables: Vec::new(),
+            variables: Variables::default(),
             running: Vec::new(),
-            own_names: Scope::default(),
+            own_names: Rc::default(),
+            monitor_registers: BTreeMap::new(),
+            endless: HashSet::new(),
             memories: Vec::new(),
             figures: None,
             tests: Vec::new(),
+            paths: None,
+            tested: None,
             commandless: None,
             outer_use: None,
             entered: None,
@@ -243,10 +271,20 @@ impl<'f> Compiler<'f> {
     }
 
     fn report(&mut self, diagnostic: Diagnostic) {
+        self.faults += usize::from(diagnostic.code != WRONG_PLACE);
         // Copies of a behaviour have the same errors.
         if self.diagnostics.len() < FAULT_LIMIT && !self.diagnostics.contains(&diagnostic) {
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    /// True if an error need not be reported, because there are enough, or one with the same code at the same place. To look for a
+    /// similar name takes time, and copies of a behaviour have the same errors. It counts as reported.
+    fn is_told(&mut self, code: &'static str, span: Span) -> bool {
+        let is_same = |known: &Diagnostic| known.code == code && known.primary.span == span;
+        let is_told = self.diagnostics.len() >= FAULT_LIMIT || self.diagnostics.iter().any(is_same);
+        self.faults += usize::from(is_told);
+        is_told
     }
 
     /// True if lowering should stop: the program is too large, or there are enough errors.
@@ -301,7 +339,7 @@ impl<'f> Compiler<'f> {
     /// The type with a name, if there is one.
     fn type_of(&mut self, name: &TypeName) -> Option<Type> {
         let found = self.named_type(name);
-        if found.is_none() {
+        if found.is_none() && !self.has_no_layout(name) && !self.is_told("P0204", name.base.span) {
             let names = self.names();
             let own = names.enumerations.keys().chain(names.compounds.keys()).chain(names.monitors.keys());
             let own: Vec<&str> = own.copied().collect();

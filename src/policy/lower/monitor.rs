@@ -1,13 +1,20 @@
 //! Monitors: memory with statements that run first in every tick.
 
+use std::collections::HashMap;
+use std::rc::Rc;
+
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Argument, Expression, File, Monitor, Name, State, Statement, Step};
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
 
 use super::call::Callee;
+use super::compound::WIDTH_LIMIT;
 use super::scope::{Meaning, Scope};
-use super::{Commandless, Compiler};
+use super::{Commandless, Compiler, DEPTH_LIMIT};
+
+/// The work of one unknown monitor, in nodes of the syntax tree. It takes more memory than a node.
+const UNKNOWN_MONITOR_WORK: usize = 8;
 
 /// A monitor that runs, or an unknown one that a part of a policy takes as an argument and that is checked alone.
 pub(super) struct Running<'f> {
@@ -17,6 +24,8 @@ pub(super) struct Running<'f> {
     origin: Origin<'f>,
     /// Its memory.
     pub(super) memory: Vec<(&'f Name, Meaning)>,
+    /// The indices of the names in it.
+    places: HashMap<&'f str, usize>,
 }
 
 /// Where the values of a monitor's arguments come from.
@@ -46,6 +55,9 @@ impl<'f> Compiler<'f> {
             None => (self.current_file, declared, [].as_slice()),
             Some(Step { name, values, .. }) => {
                 let Some((file, content)) = self.names().monitors.get(name.text.as_str()).copied() else {
+                    if self.is_told("P0201", name.span) {
+                        return None;
+                    }
                     let message = format!("there is no monitor `{}`", name.text);
                     let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown monitor");
                     let known = self.names().monitors.keys().copied();
@@ -56,47 +68,110 @@ impl<'f> Compiler<'f> {
             }
         };
         let origin = Origin::Declared { declared, values, above: scope.len() };
-        let inner = self.monitor_arguments(scope, file, content, &origin)?;
+        let inner = self.monitor_values(scope, file, content, (declared, values))?;
         Some(self.start(file, content, origin, inner))
     }
 
     /// A monitor with unknown arguments and memory. `None` if no file declares its content.
     pub(super) fn unknown_monitor(&mut self, content: Span) -> Meaning {
-        let mut known = self.files.iter().flat_map(|names| names.monitors.values());
-        let &(file, content) = known.find(|(_, known)| known.name.span == content)?;
-        let faults = self.diagnostics.len();
+        let &(file, content) = self.monitors.get(&content)?;
+        self.work += UNKNOWN_MONITOR_WORK;
+        if self.endless.contains(&content.name.span) || self.is_exhausted() {
+            return None;
+        }
+        let faults = (self.diagnostics.len(), self.faults);
         let inner = self.within(file, |compiler| compiler.scope_of_arguments(&content.arguments));
         let value = self.start(file, content, Origin::Unknown(inner.clone()), inner);
         // Errors of the content are reported where it is declared.
-        self.diagnostics.truncate(faults);
+        self.diagnostics.truncate(faults.0);
+        self.faults = faults.1;
         Some(value)
+    }
+
+    /// Reports the monitors that take themselves as arguments, directly or through others, and those that take too long a chain of others.
+    pub(super) fn check_endless_monitors(&mut self) {
+        let all = self
+            .files
+            .iter()
+            .enumerate()
+            .flat_map(|(number, names)| names.monitors.values().filter(move |(file, _)| *file == number).copied());
+        let mut all: Vec<(usize, &'f Monitor)> = all.collect();
+        all.sort_by_key(|(_, monitor)| monitor.name.span.start);
+        self.monitors = all.iter().map(|&(file, monitor)| (monitor.name.span, (file, monitor))).collect();
+        let indices: HashMap<Span, usize> =
+            all.iter().enumerate().map(|(index, (_, monitor))| (monitor.name.span, index)).collect();
+        // The monitors that each one takes, and those that take it.
+        let mut takes: Vec<Vec<usize>> = vec![Vec::new(); all.len()];
+        let mut taken_by = takes.clone();
+        for (index, &(file, monitor)) in all.iter().enumerate() {
+            for argument in &monitor.arguments {
+                let taken = self.within(file, |compiler| compiler.named_type(&argument.type_name));
+                if let Some(Type::Monitor(taken)) = taken
+                    && let Some(&taken) = indices.get(&taken)
+                {
+                    takes[index].push(taken);
+                    taken_by[taken].push(index);
+                }
+            }
+        }
+        let chains = longest_paths(&takes, &taken_by);
+        // Those that only take one of a cycle are in none.
+        let is_taken_by_cycle = longest_paths(&taken_by, &takes);
+        for (index, (_, monitor)) in all.iter().enumerate() {
+            if chains[index].is_some_and(|length| length < DEPTH_LIMIT) {
+                continue;
+            }
+            let name = &monitor.name;
+            self.endless.insert(name.span);
+            if chains[index] == Some(DEPTH_LIMIT) {
+                let message = format!("monitors take each other more than {DEPTH_LIMIT} deep");
+                let diagnostic = Diagnostic::error("P0104", message, name.span, "too deep");
+                self.report(diagnostic.hint("give the values to the monitor, in place of the monitors that have them"));
+            } else if chains[index].is_none() && is_taken_by_cycle[index].is_none() {
+                let message = format!("the monitor `{}` takes itself as an argument", name.text);
+                let diagnostic = Diagnostic::error("P0401", message, name.span, "has no end");
+                self.report(
+                    diagnostic.hint("a monitor takes only monitors that do not take it, also not through others"),
+                );
+            }
+        }
     }
 
     fn start(&mut self, file: usize, content: &'f Monitor, origin: Origin<'f>, mut inner: Scope<'f>) -> Value {
         self.within(file, |compiler| compiler.monitor_memory(&mut inner, content));
-        let memory = content.memory.iter().map(|(name, _)| (name, inner.get(&name.text).flatten())).collect();
+        let memory: Vec<(&'f Name, Meaning)> =
+            content.memory.iter().map(|(name, _)| (name, inner.get(&name.text).flatten())).collect();
+        for value in memory.iter().filter_map(|(_, value)| *value) {
+            let width = self.monitor_registers.entry(value.register).or_default();
+            *width = value.r#type.width().max(*width);
+        }
         let register = u16::try_from(self.running.len()).unwrap_or(u16::MAX);
-        self.running.push(Running { file, content, origin, memory });
+        let mut places = HashMap::with_capacity(memory.len());
+        for (place, (name, _)) in memory.iter().enumerate() {
+            places.entry(name.text.as_str()).or_insert(place);
+        }
+        self.running.push(Running { file, content, origin, memory, places });
         Value { r#type: Type::Monitor(content.name.span), register }
     }
 
-    /// The arguments of a monitor. `scope` has the names of the machine.
-    fn monitor_arguments(
+    /// The arguments of a monitor with their values. `scope` has the names of the machine above it.
+    fn monitor_values(
         &mut self,
         scope: &Scope<'f>,
         file: usize,
         content: &'f Monitor,
-        origin: &Origin<'f>,
+        (declared, values): (&'f Monitor, &'f [Expression]),
     ) -> Option<Scope<'f>> {
-        match origin {
-            Origin::Unknown(arguments) => Some(arguments.clone()),
-            Origin::Declared { declared, values, above } => {
-                let mut above_it = scope.clone();
-                above_it.truncate(*above);
-                let span = declared.used.as_ref().map_or(declared.name.span, |step| step.span);
-                self.arguments(&above_it, file, &content.name, &content.arguments, values, span)
-            }
-        }
+        let span = declared.used.as_ref().map_or(declared.name.span, |step| step.span);
+        self.arguments(scope, file, &content.name, &content.arguments, values, span)
+    }
+
+    /// True if a value is memory of a monitor, or a part of it.
+    pub(super) fn is_of_a_monitor(&self, value: Value) -> bool {
+        let first = value.register.saturating_sub(WIDTH_LIMIT);
+        let mut memories = self.monitor_registers.range(first..=value.register);
+        !matches!(value.r#type, Type::Monitor(_))
+            && memories.any(|(&register, &width)| register.saturating_add(width) > value.register)
     }
 
     /// Lowers the initial values of a monitor's memory.
@@ -113,7 +188,7 @@ impl<'f> Compiler<'f> {
 
     /// Lowers the statements of all monitors. `scope` has the names of the machine.
     pub(super) fn monitor_bodies(&mut self, scope: &Scope<'f>) {
-        self.own_names = scope.clone();
+        self.own_names = Rc::new(scope.clone());
         for index in 0..self.running.len() {
             let Some((inner, content, file)) = self.inside(index) else { continue };
             self.within(file, |compiler| compiler.monitor_statements(inner, content, &content.body));
@@ -126,12 +201,17 @@ impl<'f> Compiler<'f> {
 
     /// The names inside of a monitor: its arguments and its memory. Also its content and the file of that.
     fn inside(&mut self, index: usize) -> Option<(Scope<'f>, &'f Monitor, usize)> {
-        let Running { file, content, origin, memory } = self.running.get(index)?;
+        let Running { file, content, origin, memory, .. } = self.running.get(index)?;
         let (file, content, origin, memory) = (*file, *content, origin.clone(), memory.clone());
-        let own = std::mem::take(&mut self.own_names);
-        let inner = self.within(0, |compiler| compiler.monitor_arguments(&own, file, content, &origin));
-        self.own_names = own;
-        let mut inner = inner?;
+        // The names of the memory and of the events are looked at for every use.
+        self.work += memory.len() + content.events.len();
+        let mut inner = match origin {
+            Origin::Unknown(arguments) => arguments,
+            Origin::Declared { declared, values, above } => {
+                let above_it = Scope::inside(&self.own_names, above);
+                self.within(0, |compiler| compiler.monitor_values(&above_it, file, content, (declared, values)))?
+            }
+        };
         for (name, memory) in memory {
             inner.insert(name, memory);
         }
@@ -207,10 +287,11 @@ impl<'f> Compiler<'f> {
             let given = (Callee { what: "", label: "" }).values(&state.arguments, &used.values, used.span);
             let position = state.arguments.iter().position(|known| known.name.span == argument.name.span);
             let Some(given) = given.ok().and_then(|given| given.get(position?).copied()) else { continue };
-            let outer = self.scopes[user].clone();
-            let faults = self.diagnostics.len();
+            let outer = Rc::clone(&self.scopes[user]);
+            let faults = (self.diagnostics.len(), self.faults);
             let value = self.within(self.hierarchy.file(user), |compiler| compiler.expression(&outer, given.value));
-            self.diagnostics.truncate(faults);
+            self.diagnostics.truncate(faults.0);
+            self.faults = faults.1;
             let value = value.filter(|value| matches!(value.r#type, Type::Monitor(_)));
             scope.insert(&argument.name, value);
         }
@@ -228,6 +309,9 @@ impl<'f> Compiler<'f> {
         let Running { content, file, .. } = self.running.get(usize::from(value.register))?;
         let (content, file) = (*content, *file);
         let Some(event) = content.events.iter().find(|known| known.name.text == event.text) else {
+            if self.is_told("P0203", event.span) {
+                return None;
+            }
             let message = format!("the monitor `{}` has no event `{}`", monitor.text, event.text);
             let known: Vec<&str> = content.events.iter().map(|event| event.name.text.as_str()).collect();
             let diagnostic = Diagnostic::error("P0203", message, event.span, "unknown event");
@@ -275,9 +359,13 @@ impl<'f> Compiler<'f> {
     /// The value of a monitor's memory.
     pub(super) fn monitor_member(&mut self, monitor: Value, name: &Name) -> Option<Value> {
         let running = self.running.get(usize::from(monitor.register))?;
-        if let Some(&(_, value)) = running.memory.iter().find(|(known, _)| known.text == name.text) {
+        if let Some(&(_, value)) = running.places.get(name.text.as_str()).and_then(|&place| running.memory.get(place)) {
             return value;
         }
+        if self.is_told("P0203", name.span) {
+            return None;
+        }
+        let running = self.running.get(usize::from(monitor.register))?;
         let monitor = match &running.origin {
             Origin::Declared { declared, .. } => &declared.name.text,
             Origin::Unknown(_) => &running.content.name.text,
@@ -290,4 +378,23 @@ impl<'f> Compiler<'f> {
         self.report(diagnostic);
         None
     }
+}
+
+/// For every node of a graph, the number of edges of the longest path from it. `None` if it leads to a cycle. `edges` and `reversed` are
+/// the edges in both directions.
+fn longest_paths(edges: &[Vec<usize>], reversed: &[Vec<usize>]) -> Vec<Option<usize>> {
+    let mut left: Vec<usize> = edges.iter().map(Vec::len).collect();
+    let mut open: Vec<usize> = (0..left.len()).filter(|&node| left[node] == 0).collect();
+    let (mut lengths, mut longest) = (vec![None; left.len()], vec![0; left.len()]);
+    while let Some(node) = open.pop() {
+        lengths[node] = Some(longest[node]);
+        for &before in &reversed[node] {
+            longest[before] = longest[before].max(longest[node] + 1);
+            left[before] -= 1;
+            if left[before] == 0 {
+                open.push(before);
+            }
+        }
+    }
+    lengths
 }

@@ -73,7 +73,12 @@ impl<'f> Compiler<'f> {
             self.within(number, |compiler| compiler.own_names(number, file));
         }
         for (number, file) in all.iter().enumerate() {
+            let mut whole = HashSet::new();
             for (used, &library) in file.uses.iter().zip(files.links.get(number).into_iter().flatten()) {
+                // All items of the same library again are the same.
+                if used.names.is_none() && !whole.insert(library) {
+                    continue;
+                }
                 if let Some(other) = files.libraries.get(library) {
                     self.within(number, |compiler| compiler.import(used, library + 1, other));
                 }
@@ -135,10 +140,15 @@ impl<'f> Compiler<'f> {
 
     /// Imports the items of the library `other`, file `number`, for the `use` `used`.
     fn import(&mut self, used: &'f Use, number: usize, other: &'f File) {
-        let own = || other.exports();
         let chosen: Vec<(&'f Name, Span)> = match &used.names {
-            None => own().map(|name| (name, used.span)).collect(),
-            Some(names) => names.iter().filter_map(|name| self.choose(name, other, own())).collect(),
+            None => other.exports().map(|name| (name, used.span)).collect(),
+            Some(names) => {
+                let mut own: HashMap<&'f str, &'f Name> = HashMap::new();
+                for name in other.exports() {
+                    own.entry(&name.text).or_insert(name);
+                }
+                names.iter().filter_map(|name| self.choose(name, other, &own)).collect()
+            }
         };
         for (name, span) in chosen {
             match self.names().items.get(name.text.as_str()) {
@@ -155,39 +165,34 @@ impl<'f> Compiler<'f> {
                 }
                 _ => {
                     let text = name.text.as_str();
-                    let derived = other.derived.iter().find(|item| item.name.span == name.span);
-                    let law = other.laws.iter().find(|item| item.name.span == name.span);
-                    let enumeration = other.enumerations.iter().find(|item| item.name.span == name.span);
-                    let compound = other.compounds.iter().find(|item| item.name.span == name.span);
-                    let behaviour = other.behaviours.iter().find(|item| item.name.span == name.span);
-                    let monitor = other.monitors.iter().find(|item| item.name.span == name.span);
+                    let its = &self.files[number];
+                    let derived = its.derived.get(text).copied().filter(|(_, item)| item.name.span == name.span);
+                    let law = its.laws.get(text).copied().filter(|(_, item)| item.name.span == name.span);
+                    let enumeration = its.enumerations.get(text).copied().filter(|item| item.name.span == name.span);
+                    let compound = its.compounds.get(text).copied().filter(|(_, item)| item.name.span == name.span);
+                    let monitor = its.monitors.get(text).copied().filter(|(_, item)| item.name.span == name.span);
+                    let is_behaviour = its.behaviours.contains(text);
                     let names = self.names_mut();
                     names.items.insert(text, name.span);
                     names.enumerations.extend(enumeration.map(|item| (text, item)));
-                    names.compounds.extend(compound.map(|item| (text, (number, item))));
-                    names.derived.extend(derived.map(|item| (text, (number, item))));
-                    names.laws.extend(law.map(|item| (text, (number, item))));
-                    names.behaviours.extend(behaviour.map(|item| item.name.text.as_str()));
-                    names.monitors.extend(monitor.map(|item| (text, (number, item))));
+                    names.compounds.extend(compound.map(|item| (text, item)));
+                    names.derived.extend(derived.map(|item| (text, item)));
+                    names.laws.extend(law.map(|item| (text, item)));
+                    names.behaviours.extend(is_behaviour.then_some(text));
+                    names.monitors.extend(monitor.map(|item| (text, item)));
                 }
             }
         }
     }
 
     /// The meaning of a name in the list of a `use`.
-    fn choose(
-        &mut self,
-        name: &'f Name,
-        other: &File,
-        own: impl Iterator<Item = &'f Name>,
-    ) -> Option<(&'f Name, Span)> {
-        let own: Vec<&'f Name> = own.collect();
-        let found = own.iter().find(|known| known.text == name.text).map(|&known| (known, name.span));
-        if found.is_none() {
+    fn choose(&mut self, name: &'f Name, other: &File, own: &HashMap<&'f str, &'f Name>) -> Option<(&'f Name, Span)> {
+        let found = own.get(name.text.as_str()).map(|&known| (known, name.span));
+        if found.is_none() && !self.is_told("P0205", name.span) {
             let message = format!("the library `{}` has no `{}`", other.name.text, name.text);
-            let known = own.iter().map(|known| known.text.as_str());
+            let known: Vec<&str> = other.exports().map(|known| known.text.as_str()).collect();
             let fault = Diagnostic::error("P0205", message, name.span, "unknown name");
-            let list = known.clone().map(|known| format!("`{known}`")).collect::<Vec<_>>().join(", ");
+            let list = known.iter().map(|known| format!("`{known}`")).collect::<Vec<_>>().join(", ");
             self.report(did_you_mean(fault, &name.text, known).hint(format!("it has {list}")));
         }
         found

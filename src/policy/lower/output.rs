@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Enumeration, Expression, Name};
+use crate::policy::ast::{Expression, Name};
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{
     DESCRIPTION_LIMIT, MESSAGE_LIMIT, Message, MessageValue, NUMBERS_LIMIT, Op, OutputKind, PLOT_LIMIT, Plot, Register,
@@ -116,14 +116,15 @@ impl<'f> Compiler<'f> {
         self.code.push(Op::Count { to, counter });
     }
 
-    fn output_kind(&self, of: Type) -> Option<OutputKind> {
+    fn output_kind(&mut self, of: Type) -> Option<OutputKind> {
         Some(match of {
             Type::Truth => OutputKind::Truth,
             Type::Scalar(dimension) => OutputKind::Number(dimension),
             r#type if let Some(dimension) = r#type.components() => OutputKind::Vector(dimension),
             Type::Whisker => OutputKind::Whisker,
             Type::Choice(choices) => {
-                OutputKind::Choice(self.enumerations.get(&choices.declared).copied().map(Enumeration::names)?)
+                let item = self.enumerations.get(&choices.declared).copied()?;
+                OutputKind::Choice(self.choice_names(item))
             }
             _ => return None,
         })

@@ -20,7 +20,7 @@ impl<'f> Compiler<'f> {
             }
             Setting::Choice(of, value) => {
                 let item = self.enumeration(of)?;
-                (item.names(), item.r#type(), self.choice_number(item, value)?)
+                (self.choice_names(item), item.r#type(), self.choice_number(item, value)?)
             }
         };
         let range = Some((0.0, choices.len() as f64 - 1.0));

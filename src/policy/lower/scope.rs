@@ -1,5 +1,8 @@
 //! Scopes.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, Name, Statement};
 use crate::policy::builtins::{self, FUNCTIONS};
@@ -16,50 +19,126 @@ use super::structure::{FAILURE, SUCCESS};
 /// The meaning of a name: a value, or `None` if the value has an error that has been reported.
 pub(super) type Meaning = Option<Value>;
 
-/// The names that a law, derived value or state declares. Later ones take precedence.
+/// The names that a law, derived value or state declares, with those of the outer states. Later ones take precedence.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scope<'f> {
-    names: Vec<(&'f Name, Meaning)>,
+    /// The names around it, which precede the own ones.
+    outer: Option<Rc<Self>>,
+    /// Number of the outer names, of which only so many are known.
+    outer_len: usize,
+    /// Outer names that are not known.
+    hidden: BTreeSet<&'f str>,
+    own: Vec<Known<'f>>,
+    /// For every own name, the index of its last declaration.
+    last: BTreeMap<&'f str, usize>,
+}
+
+/// A name in a scope.
+#[derive(Debug, Clone)]
+struct Known<'f> {
+    name: &'f Name,
+    meaning: Meaning,
+    /// The index of the previous own declaration of the same name.
+    before: Option<usize>,
 }
 
 impl<'f> Scope<'f> {
+    /// A scope inside another one, which knows the first `len` of its names. It shares them, because thousands of states may be
+    /// inside one state.
+    pub(super) fn inside(outer: &Rc<Self>, len: usize) -> Self {
+        Self { outer: Some(Rc::clone(outer)), outer_len: len, ..Self::default() }
+    }
+
     pub(super) fn get(&self, name: &str) -> Option<Meaning> {
-        self.find(name).map(|&(_, meaning)| meaning)
+        self.find(name).map(|(_, known)| known.meaning)
     }
 
     /// Span of the declaration of a name.
     pub(super) fn given(&self, name: &str) -> Option<Span> {
-        self.find(name).map(|(known, _)| known.span)
+        self.find(name).map(|(_, known)| known.name.span)
     }
 
     pub(super) fn insert(&mut self, name: &'f Name, meaning: Meaning) {
-        self.names.push((name, meaning));
+        let before = self.last.insert(&name.text, self.own.len());
+        self.own.push(Known { name, meaning, before });
     }
 
-    /// The names after the first `len` that have a value.
-    pub(super) fn values_since(&self, len: usize) -> Vec<(String, Value)> {
-        let names = self.names.get(len..).unwrap_or_default().iter();
-        names.filter_map(|(name, meaning)| Some((name.text.clone(), (*meaning)?))).collect()
+    /// The own names that have a value.
+    pub(super) fn own_values(&self) -> Vec<(String, Value)> {
+        self.own.iter().filter_map(|known| Some((known.name.text.clone(), known.meaning?))).collect()
     }
 
     /// Number of names, for [`truncate`](Self::truncate).
     pub(super) fn len(&self) -> usize {
-        self.names.len()
+        self.outer_len + self.own.len()
     }
 
-    /// Removes the names after the first `len`.
+    /// Removes the own names after the first `len` names.
     pub(super) fn truncate(&mut self, len: usize) {
-        self.names.truncate(len);
+        while self.len() > len
+            && let Some(Known { name, before, .. }) = self.own.pop()
+        {
+            match before {
+                Some(before) => self.last.insert(&name.text, before),
+                None => self.last.remove(name.text.as_str()),
+            };
+        }
     }
 
     /// The scope without the names of `hidden`.
     pub(super) fn without(&self, hidden: &'f [(Name, Expression)]) -> Self {
-        let is_hidden = |name: &Name| hidden.iter().any(|(hidden, _)| hidden.text == name.text);
-        Self { names: self.names.iter().filter(|(name, _)| !is_hidden(name)).copied().collect() }
+        if hidden.is_empty() {
+            return self.clone();
+        }
+        let inner = Self::inside(&Rc::new(self.clone()), self.len());
+        Self { hidden: hidden.iter().map(|(name, _)| name.text.as_str()).collect(), ..inner }
     }
 
-    fn find(&self, name: &str) -> Option<&(&'f Name, Meaning)> {
-        self.names.iter().rev().find(|(known, _)| known.text == name)
+    /// True if a value is in registers of the meaning of a name that `is_wanted`.
+    pub(super) fn has_part(&self, value: Value, is_wanted: impl Fn(&str) -> bool) -> bool {
+        let mut level = Some(self);
+        while let Some(scope) = level {
+            let memory = |known: &Known<'f>| known.meaning.is_some_and(|memory| value.is_part_of(memory));
+            let mut parts = (scope.outer_len..).zip(&scope.own).filter(|(_, known)| memory(known));
+            // A later declaration hides the name.
+            let is_known = |index: usize, name: &str| self.find(name).is_some_and(|(last, _)| last == index);
+            if parts.any(|(index, part)| is_wanted(&part.name.text) && is_known(index, &part.name.text)) {
+                return true;
+            }
+            level = scope.outer.as_deref();
+        }
+        false
+    }
+
+    /// All names.
+    fn names(&self) -> Vec<&'f str> {
+        let mut names = Vec::with_capacity(self.len());
+        let mut level = Some(self);
+        while let Some(scope) = level {
+            names.extend(scope.own.iter().map(|known| known.name.text.as_str()));
+            level = scope.outer.as_deref();
+        }
+        names.retain(|name| self.find(name).is_some());
+        names
+    }
+
+    /// The last declaration of a name, and its index.
+    fn find(&self, name: &str) -> Option<(usize, &Known<'f>)> {
+        self.find_before(name, self.len())
+    }
+
+    /// The last declaration of a name among the first `len`.
+    fn find_before(&self, name: &str, len: usize) -> Option<(usize, &Known<'f>)> {
+        let mut index = self.last.get(name).copied();
+        while let Some(own) = index {
+            let known = self.own.get(own)?;
+            if self.outer_len + own < len {
+                return Some((self.outer_len + own, known));
+            }
+            index = known.before;
+        }
+        let outer = self.outer.as_ref().filter(|_| !self.hidden.contains(name))?;
+        outer.find_before(name, len.min(self.outer_len))
     }
 }
 
@@ -69,8 +148,8 @@ impl<'f> Compiler<'f> {
     /// The first `hidable` names, those of outer states and of the machine, may be declared again. They are hidden
     /// then.
     pub(super) fn bind(&mut self, scope: &mut Scope<'f>, hidable: usize, name: &'f Name, meaning: Meaning) {
-        let own = scope.names[hidable..].iter().rev().find(|(known, _)| known.text == name.text);
-        let before = own.map(|(known, _)| known.span);
+        let own = scope.find(&name.text).filter(|&(index, _)| index >= hidable);
+        let before = own.map(|(_, known)| known.name.span);
         match before.or_else(|| self.names().item(&name.text)) {
             _ if is_reserved(&name.text) => self.report(reserved(name)),
             Some(before) => self.report(taken(name, before)),
@@ -98,6 +177,9 @@ impl<'f> Compiler<'f> {
 
     /// Reports an unknown name.
     pub(super) fn unknown_name(&mut self, scope: &Scope<'f>, name: &Name) {
+        if self.is_told("P0201", name.span) {
+            return;
+        }
         let message = format!("there is no name `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown name");
         let text = &name.text;
@@ -116,7 +198,7 @@ impl<'f> Compiler<'f> {
             diagnostic.note(memory.0.span, "given here").hint(
                 "a `var` can read only those above it; a name of the state hides the same name of an outer state in the whole state",
             )
-        } else if self.variables.iter().any(|known| known.text == *text) {
+        } else if self.variables.contains(text) {
             // Code that may access memory at all knows the state's memory where it is declared, and that of the
             // machine.
             diagnostic.hint(if self.inlining.is_empty() && self.figures.is_none() {
@@ -138,7 +220,7 @@ impl<'f> Compiler<'f> {
         } else if parse_unit(text).is_ok() {
             diagnostic.hint(format!("`{text}` is a unit: a unit follows a number and has no spaces: `5 mm/s`"))
         } else {
-            let known = scope.names.iter().map(|(known, _)| known.text.as_str());
+            let known = scope.names().into_iter();
             let known = known.chain(self.names().globals.keys().copied()).chain(self.names().derived.keys().copied());
             let known = known.chain(self.names().enumerations.keys().chain(self.names().compounds.keys()).copied());
             let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time", "state_time"]);

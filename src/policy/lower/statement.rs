@@ -81,14 +81,19 @@ impl<'f> Compiler<'f> {
 
     /// A value that later statements cannot change: a copy if it is memory, otherwise the value itself.
     fn snapshot(&mut self, scope: &Scope<'f>, value: Value) -> Value {
-        let mut own = self.variables.iter().filter_map(|name| scope.get(&name.text).flatten());
-        if own.any(|memory| value.is_part_of(memory)) { self.copied(value) } else { self.untold(value) }
+        // The shorter of both lists is searched. Each may have thousands of names.
+        let is_memory = if self.variables.len() < scope.len() / 8 {
+            let mut own = self.variables.iter().filter_map(|name| scope.get(&name.text).flatten());
+            own.any(|memory| value.is_part_of(memory))
+        } else {
+            scope.has_part(value, |name| self.variables.contains(name))
+        };
+        if is_memory { self.copied(value) } else { self.untold(value) }
     }
 
     /// A value that no event can change: a copy if it is memory of a monitor, otherwise the value itself.
     pub(super) fn untold(&mut self, value: Value) -> Value {
-        let mut memories = self.running.iter().flat_map(|running| &running.memory).filter_map(|(_, memory)| *memory);
-        if memories.any(|memory| value.is_part_of(memory)) { self.copied(value) } else { value }
+        if self.is_of_a_monitor(value) { self.copied(value) } else { value }
     }
 
     /// A copy of a value in its own registers.
@@ -185,6 +190,9 @@ impl<'f> Compiler<'f> {
 
     fn apply(&mut self, scope: &Scope<'f>, name: &'f Name, values: &'f [Expression], span: Span) -> Option<()> {
         let Some((file, law)) = self.names().laws.get(name.text.as_str()).copied() else {
+            if self.is_told("P0201", name.span) {
+                return None;
+            }
             let message = format!("there is no law `{}`", name.text);
             let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown law");
             let diagnostic = did_you_mean(diagnostic, &name.text, self.names().laws.keys().copied());
@@ -196,15 +204,15 @@ impl<'f> Compiler<'f> {
             let value = inner.get(&argument.name.text).flatten().map(|value| self.untold(value));
             inner.insert(&argument.name, value);
         }
-        self.inlining.push(&law.name);
         let used = self.outer_use;
         self.outer_use = used.or(Some(span));
-        let written = self.descend(span, |compiler| {
-            compiler.within(file, |compiler| compiler.statements(&mut inner, &law.body));
-            Some(())
+        let written = self.inlined(&law.name, |compiler| {
+            compiler.descend(span, |compiler| {
+                compiler.within(file, |compiler| compiler.statements(&mut inner, &law.body));
+                Some(())
+            })
         });
         self.outer_use = used;
-        self.inlining.pop();
         written
     }
 

@@ -1,5 +1,6 @@
 //! The whole machine: items, states, transitions.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
@@ -22,10 +23,14 @@ pub(in crate::policy) const SUCCESS: &str = "Success";
 const COMMAND_ADVICE: &str =
     "move it to the statements of the state, which the tick that enters the state also executes";
 
+/// The length of the names of a state's memory that counts as one visited node (bytes).
+const NAMES_PER_WORK: usize = 64;
+
 /// Checks the items of a policy and its libraries, and all laws and derived values separately. Returns the parameters
 /// of the policy.
 pub(super) fn items<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Vec<machine::Parameter> {
     compiler.gather_names(files);
+    compiler.check_endless_monitors();
     let parameters = compiler.parameters(&files.main);
     compiler.whiskers(&files.main);
     compiler.declare_contours(&files.main);
@@ -66,13 +71,13 @@ pub(super) fn report_size(compiler: &mut Compiler<'_>, last: Span) {
 pub(super) fn machine<'f>(compiler: &mut Compiler<'f>, files: &'f Files) -> Option<Program> {
     let file = &files.main;
     // Laws and derived values come first and cannot access this memory. Their error messages mention it.
-    compiler.variables.extend(file.memory.iter().map(|(name, _)| name));
+    compiler.variables = file.memory.iter().map(|(name, _)| name).collect();
     let parameters = items(compiler, files);
     let (scope, entry, monitors) = compiler.own_memory(file);
     let body = compiler.own_body(&scope, file);
     // The registers of all arguments must exist before any transition is lowered.
     compiler.declare(&files.machine, &scope);
-    compiler.memory.machine = compiler.parts(scope.values_since(0));
+    compiler.memory.machine = compiler.parts(scope.own_values());
     let mut timers = 0;
     let always = compiler.transitions(&scope, None, &file.always, &mut timers);
     let fallback = compiler.failsafe(&scope, None, &file.failsafes);
@@ -136,6 +141,7 @@ impl<'f> Compiler<'f> {
                 parameters.push(checked);
                 Value { r#type, register }
             });
+            self.check_size(parameter.name.span);
             self.note_type(&parameter.name, meaning);
             self.names_mut().globals.insert(&parameter.name.text, meaning);
         }
@@ -238,6 +244,7 @@ impl<'f> Compiler<'f> {
     fn declare(&mut self, expanded: &'f Expanded, own: &Scope<'f>) {
         expanded.faults.iter().for_each(|fault| self.report(fault.clone()));
         self.hierarchy = Hierarchy::new(expanded);
+        let own = Rc::new(own.clone());
         self.states.clear();
         self.scopes.clear();
         self.memory.states.clear();
@@ -249,13 +256,14 @@ impl<'f> Compiler<'f> {
             }
             let mut scope = match state.parent {
                 _ if expanded.is_root(index) => Scope::default(),
-                Some(parent) => self.scopes[parent].clone(),
-                None => own.clone(),
+                Some(parent) => Scope::inside(&self.scopes[parent], self.scopes[parent].len()),
+                None => Scope::inside(&own, own.len()),
             };
-            let outer = scope.len();
             self.within(self.hierarchy.file(index), |compiler| compiler.declare_state(index, state, &mut scope));
-            self.memory.states.push(self.parts(scope.values_since(outer)));
-            self.scopes.push(scope);
+            let memory = if self.is_exhausted() { Vec::new() } else { self.parts(scope.own_values()) };
+            self.work += memory.iter().map(|(name, _)| name.len()).sum::<usize>() / NAMES_PER_WORK;
+            self.memory.states.push(memory);
+            self.scopes.push(Rc::new(scope));
         }
     }
 
@@ -284,17 +292,24 @@ impl<'f> Compiler<'f> {
     fn lower_states(&mut self, timers: &mut usize) -> Vec<machine::State> {
         // The memory that each state can set.
         let own = std::mem::take(&mut self.variables);
-        let mut variables: Vec<Vec<&'f Name>> = Vec::with_capacity(self.hierarchy.states.len());
+        let mut variables: Vec<Rc<[&'f Name]>> = Vec::with_capacity(self.hierarchy.states.len());
+        let (own_variables, none): (Rc<[&'f Name]>, _) = (Rc::from(&*own), Rc::from([]));
         let mut lowered = Vec::with_capacity(self.hierarchy.states.len());
         for (index, state) in self.hierarchy.states.iter().enumerate() {
-            self.variables = match state.parent {
-                Some(parent) if self.hierarchy.states[parent].instance != state.instance => Vec::new(),
-                Some(parent) => variables[parent].clone(),
-                None => own.clone(),
+            // There are enough errors, or the policy is too large, which has been noted.
+            if self.is_exhausted() {
+                break;
+            }
+            let outer = match state.parent {
+                Some(parent) if self.hierarchy.states[parent].instance != state.instance => &none,
+                Some(parent) => &variables[parent],
+                None => &own_variables,
             };
-            self.variables.extend(state.memory.iter().map(|(name, _)| name));
-            variables.push(self.variables.clone());
-            let mut scope = self.scopes[index].clone();
+            self.variables = outer.iter().copied().chain(state.memory.iter().map(|(name, _)| name)).collect();
+            let outer = Rc::clone(outer);
+            // Thousands of states may share the memory of an outer one.
+            variables.push(if state.memory.is_empty() { outer } else { Rc::from(&*self.variables) });
+            let mut scope = Scope::clone(&self.scopes[index]);
             lowered.push(self.within(self.hierarchy.file(index), |compiler| {
                 compiler.connections(index, state);
                 compiler.state(index, state, &mut scope, timers)
@@ -372,7 +387,8 @@ impl<'f> Compiler<'f> {
         let guards: Vec<Option<machine::Guard>> =
             transitions.iter().map(|transition| self.guard(scope, &transition.guard, timers)).collect();
         let written = guards.into_iter().zip(transitions).filter_map(|(guard, transition)| {
-            let target = self.target(scope, from, &transition.target);
+            // There are enough errors, or the policy is too large, which has been noted.
+            let target = if self.is_exhausted() { None } else { self.target(scope, from, &transition.target) };
             Some(machine::Transition { guard: guard?, target: target? })
         });
         written.collect()

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::policy::ast::{Expression, File, Name, State, Step, Target};
+use crate::policy::ast::{Expression, File, Name, State, StateContent, Step, Target};
 use crate::policy::expand::Instance;
 use crate::policy::foreign_syntax::target_advice;
 use crate::policy::suggestion::did_you_mean;
 use crate::policy::types::{Type, Value};
 use vibrissa_runtime::machine::{self, Block};
+use vibrissa_runtime::units::suggest;
 
 use super::call::{Callee, Given, usage};
 use super::scope::{Meaning, Scope};
@@ -79,9 +80,12 @@ impl<'f> Compiler<'f> {
             return None;
         }
         let Some(StateEntry { index: state, arguments }) = self.entry_of(instance, &target.name) else {
+            if self.is_told("P0201", target.name.span) {
+                return None;
+            }
             let diagnostic = self.unknown_state(instance, &target.name);
             self.report(match &target.text {
-                Some(text) => diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)),
+                Some(text) => diagnostic.hint(end_advice(&target.name.text, &text.text)),
                 None => diagnostic,
             });
             return None;
@@ -90,7 +94,7 @@ impl<'f> Compiler<'f> {
             let message = format!("the state `{}` takes no reason", target.name.text);
             let diagnostic =
                 Diagnostic::error("P0304", message, text.span, "only `Failure` and `Success` take a reason");
-            self.report(diagnostic.hint(format!("write `Failure(\"{}\")` to end the run", text.text)));
+            self.report(diagnostic.hint(end_advice(&target.name.text, &text.text)));
             return None;
         }
         if let Some(resume) = target.resume
@@ -124,8 +128,10 @@ impl<'f> Compiler<'f> {
         let mut behind = 0;
         for step in &target.outer {
             let Some(index) = self.entry_of(instance, &step.name).map(|entry| entry.index) else {
-                let diagnostic = self.unknown_state(instance, &step.name);
-                self.report(diagnostic);
+                if !self.is_told("P0201", step.name.span) {
+                    let diagnostic = self.unknown_state(instance, &step.name);
+                    self.report(diagnostic);
+                }
                 return None;
             };
             let outer = &entered[..entered.len() - 1];
@@ -154,8 +160,9 @@ impl<'f> Compiler<'f> {
         }
         let mut given = Vec::with_capacity(entered.len());
         for (level, &index) in entered[..entered.len() - 1].iter().enumerate() {
-            let State { name: outer, instance, .. } = &self.hierarchy.states[index];
-            let arguments = self.entry_of(*instance, outer)?.arguments;
+            let state = &self.hierarchy.states[index];
+            let outer = &state.name;
+            let arguments = self.entry_of(state.instance, outer)?.arguments;
             if let Some((_, step)) = steps.iter().find(|(at, _)| *at == level) {
                 let values = self.given(index, step.span, &step.values, entered)?;
                 given.push((values, arguments));
@@ -196,7 +203,7 @@ impl<'f> Compiler<'f> {
         let message = format!("there is no state `{}`", name.text);
         let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown state");
         let known = self.states.keys().filter(|(known, _)| *known == instance).map(|&(_, name)| name);
-        let diagnostic = did_you_mean(diagnostic, &name.text, known.chain([FAILURE]));
+        let diagnostic = did_you_mean(diagnostic, &name.text, known.chain([FAILURE, SUCCESS]));
         let inside = self.hierarchy.states.iter().find(|state| state.name.text == name.text);
         let around = inside.map(|state| &self.hierarchy.instances[state.instance]);
         match (target_advice(&name.text), around) {
@@ -229,7 +236,7 @@ impl<'f> Compiler<'f> {
         entered: &[usize],
     ) -> Option<Vec<Given<'f>>> {
         let states = self.hierarchy.states;
-        let State { name, arguments, .. } = &states[state];
+        let StateContent { name, arguments, .. } = &*states[state].content;
         let what = format!("the state `{}`", name.text);
         match (Callee { what: &what, label: "entered here" }).values(arguments, values, span) {
             Ok(given) => Some(given),
@@ -329,7 +336,7 @@ impl<'f> Compiler<'f> {
                 return None;
             }
         };
-        let Step { name: begin, values, span } = step;
+        let Step { name: begin, values, span } = &**step;
         // The content of a behaviour follows the state that uses it.
         let place = if state.behaviour.is_some() { index + 1 } else { index };
         let Some(StateEntry { index: child, arguments }) = self.entry_of(self.hierarchy.instance(Some(place)), begin)
@@ -354,6 +361,18 @@ impl<'f> Compiler<'f> {
         let values = self.pass_arguments(scope, &[(values, arguments)])?;
         Some((child, values))
     }
+}
+
+/// Advice for a target with a reason that is neither `Failure` nor `Success`: the one that is meant, or both.
+fn end_advice(name: &str, reason: &str) -> String {
+    let lower = name.to_lowercase();
+    let is_meant = |end: &str, begin: &str| lower.starts_with(begin) || suggest(name, [end]).is_some();
+    let ends = match (is_meant(FAILURE, "fail"), is_meant(SUCCESS, "succ") || target_advice(name).is_some()) {
+        (true, false) => return format!("write `{FAILURE}(\"{reason}\")` to end the run"),
+        (false, true) => return format!("write `{SUCCESS}(\"{reason}\")` to complete the run"),
+        _ => [FAILURE, SUCCESS].map(|end| format!("`{end}(\"{reason}\")`")),
+    };
+    format!("write {} to end the run", ends.join(" or "))
 }
 
 fn second_initial(message: &str, first: Span, second: Span) -> Diagnostic {

@@ -1,5 +1,8 @@
 //! Lowering of tests and properties. Their code is not part of the program.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::ast::{Expression, File, Kind, Name, Setting, Test, TestScenes};
 use crate::policy::suggestion::did_you_mean;
@@ -59,6 +62,9 @@ impl<'f> Compiler<'f> {
             return None;
         }
         let Some(index) = parameters.iter().position(|parameter| parameter.name == name.text) else {
+            if self.is_told("P0201", name.span) {
+                return None;
+            }
             let message = format!("there is no parameter `{}`", name.text);
             let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown parameter");
             let known = parameters.iter().map(|parameter| parameter.name.as_str());
@@ -69,13 +75,19 @@ impl<'f> Compiler<'f> {
     }
 
     fn expectation(&mut self, truth: &'f Expression) -> Option<Expectation> {
-        let mark = self.code.mark();
+        let (mark, before) = (self.code.mark(), self.code.initial.len());
         let start = self.code.here() as usize;
         self.figures = Some(Vec::new());
         let value = self.expect(&Scope::default(), truth, Type::Truth);
         let figures = self.figures.take().unwrap_or_default();
         let code = self.code.ops.get(start..).unwrap_or_default().to_vec();
-        let initial = self.code.initial.clone();
+        // All tests share the registers of the program. There may be thousands of both.
+        let program = match &self.tested {
+            Some(program) if program.len() == before => Arc::clone(program),
+            _ => Arc::from(self.code.initial.get(..before).unwrap_or_default()),
+        };
+        self.tested = Some(Arc::clone(&program));
+        let own = self.code.initial.get(before..).unwrap_or_default().to_vec();
         self.code.rewind(mark);
         self.memories.clear();
 
@@ -90,7 +102,7 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic.hint("expect something of `run`, such as `run.error_mean < 0.5 mm`"));
             return None;
         }
-        Some(Expectation { span: truth.span, code, initial, result: value.register, figures })
+        Some(Expectation { span: truth.span, code, initial: [program, own.into()], result: value.register, figures })
     }
 
     /// A register for a figure of the run.
@@ -159,11 +171,20 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic.hint(format!("write `run.{}(Name)`", name.text)));
             return None;
         };
-        let paths: Vec<String> = (0..self.hierarchy.states.len()).map(|index| self.hierarchy.path(index)).collect();
-        let Some(index) = paths.iter().position(|known| *known == state) else {
+        let hierarchy = &self.hierarchy;
+        let paths = self.paths.get_or_insert_with(|| {
+            let paths = (0..hierarchy.states.len()).rev().map(|index| (hierarchy.path(index), index));
+            paths.collect()
+        });
+        let Some(&index) = paths.get(&state) else {
+            if self.is_told("P0201", span) {
+                return None;
+            }
             let message = format!("there is no state `{state}`");
             let diagnostic = Diagnostic::error("P0201", message, span, "unknown state");
-            self.report(did_you_mean(diagnostic, &state, paths.iter().map(String::as_str)));
+            let known = self.paths.iter().flat_map(HashMap::keys).map(String::as_str);
+            let diagnostic = did_you_mean(diagnostic, &state, known);
+            self.report(diagnostic);
             return None;
         };
         Some(self.figure(figure(index), name.span))

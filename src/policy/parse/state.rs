@@ -1,7 +1,9 @@
 //! States, inner states, and targets.
 
+use std::sync::Arc;
+
 use crate::diagnostic::Span;
-use crate::policy::ast::{Behaviour, Connection, Exit, Expression, Monitor, Name, State, Step, Target};
+use crate::policy::ast::{Behaviour, Connection, Exit, Expression, Monitor, Name, State, StateContent, Step, Target};
 use crate::policy::grammar::Rule;
 use crate::policy::parse_tree::Pair;
 
@@ -10,47 +12,47 @@ use super::{Parsed, Reader, arguments, block, contract, internal, law, statement
 /// Adds a state and its inner states to `states`.
 pub(super) fn state(reader: &mut Reader<'_>, parent: Option<usize>, states: &mut Vec<State>) -> Parsed<()> {
     let (name, given) = (reader.name()?, arguments(reader)?);
-    let behaviour = if reader.has(Rule::application) { Some(step(reader.take(Rule::application)?)?) } else { None };
-    let (memory, entry, exit, body) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (initial, transitions, failsafes, contracts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let own = states.len();
-    states.push(State {
+    let behaviour =
+        if reader.has(Rule::application) { Some(Arc::new(step(reader.take(Rule::application)?)?)) } else { None };
+    let content = StateContent {
         name,
-        parent,
         arguments: given,
-        initial,
-        memory,
-        entry,
-        exit,
-        body,
-        transitions,
-        failsafes,
-        contracts,
+        memory: Vec::new(),
+        entry: Vec::new(),
+        exit: Vec::new(),
+        body: Vec::new(),
+        transitions: Vec::new(),
+        failsafes: Vec::new(),
         behaviour,
         connections: Vec::new(),
-        exits: Vec::new(),
-        instance: 0,
-    });
+        exits: Arc::default(),
+    };
+    let own = states.len();
+    let (initial, contracts) = (Vec::new(), Arc::default());
+    states.push(State { parent, initial, contracts, instance: 0, content: Arc::new(content) });
     while let Some(pair) = reader.rest() {
         if pair.as_rule() == Rule::state {
             self::state(&mut Reader::new(pair), Some(own), states)?;
             continue;
         }
-        let state = &mut states[own];
+        let State { initial, contracts, content, .. } = &mut states[own];
+        // There are no copies yet.
+        let content = Arc::make_mut(content);
         match pair.as_rule() {
-            Rule::start => state.initial.push(step(pair)?),
-            Rule::when | Rule::after => state.transitions.push(transition(pair)?),
-            Rule::failsafe => state.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
-            Rule::assume | Rule::never | Rule::recurring => state.contracts.push(contract(pair)?),
-            Rule::memory => state.memory.push(variable(&mut Reader::new(pair))?),
-            Rule::entry => state.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
-            Rule::connection => state.connections.push(connection(&mut Reader::new(pair))?),
+            Rule::start => initial.push(Arc::new(step(pair)?)),
+            Rule::when | Rule::after => content.transitions.push(transition(pair)?),
+            Rule::failsafe => content.failsafes.push(target(Reader::new(pair).take(Rule::target)?)?),
+            Rule::assume | Rule::never | Rule::recurring => Arc::make_mut(contracts).push(contract(pair)?),
+            Rule::memory => content.memory.push(variable(&mut Reader::new(pair))?),
+            Rule::entry => content.entry.extend(block(Reader::new(pair).take(Rule::block)?)?),
+            Rule::connection => content.connections.push(connection(&mut Reader::new(pair))?),
             Rule::outlet => {
                 let mut reader = Reader::new(pair);
-                state.exits.push(Exit { name: reader.name()?, arguments: arguments(&mut reader)? });
+                let exit = Exit { name: reader.name()?, arguments: arguments(&mut reader)? };
+                Arc::make_mut(&mut content.exits).push(exit);
             }
-            Rule::exit => state.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
-            _ => state.body.push(statement(pair)?),
+            Rule::exit => content.exit.extend(block(Reader::new(pair).take(Rule::block)?)?),
+            _ => content.body.push(statement(pair)?),
         }
     }
     Ok(())

@@ -57,3 +57,28 @@ fn fmt_leaves_a_text_that_cannot_be_read_and_goes_on_with_the_others() {
     assert_eq!(std::fs::read_to_string(&ugly).unwrap(), LAID_OUT);
     assert_eq!(vibrissa(&["fmt", "--check", &bad, &ugly]).status.code(), Some(2));
 }
+
+#[test]
+fn fmt_check_says_what_nobody_sees() {
+    let directory = directory("fmt_unseen");
+    let file = directory.join("unseen.fsm").display().to_string();
+    let shown = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        let output = vibrissa(&["fmt", "--check", &file]);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        stdout(&output)
+    };
+    // Line ends alone: no line is shown as removed and added again.
+    assert_eq!(
+        shown(&LAID_OUT.replace('\n', "\r\n")),
+        format!("{file}: 3 lines end with CR LF, as on Windows; `vibrissa fmt` writes LF alone\n")
+    );
+    let both = shown("machine m\r\ninitial S\nstate S{stop}\n");
+    assert!(both.starts_with(&format!("{file}: 1 line ends with CR LF")), "{both}");
+    assert!(both.ends_with("\n-state S{stop}\n+state S { stop }\n") && !both.contains("-machine"), "{both}");
+    assert!(
+        shown("machine m\ninitial S \t \nstate S { stop }\n")
+            .contains("\n-initial S\u{b7}\u{2192}\u{b7}\n+initial S\n")
+    );
+    assert!(shown("machine m\ninitial S\nstate S {\n\tstop }\n").contains("\n-\u{2192}stop }\n"));
+}

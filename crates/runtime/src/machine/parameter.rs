@@ -35,6 +35,10 @@ impl Parameter {
         if !self.choices.is_empty() {
             return Err(self.no_choice(format_si(value, dimension)));
         }
+        if self.dimension != dimension && dimension == Dimension::NUMBER {
+            let (expected, example) = (self.dimension.to_string(), self.text(self.default));
+            return Err(SetError::NoUnit { name, expected, example });
+        }
         if self.dimension != dimension {
             let (expected, found) = (self.dimension.to_string(), dimension.to_string());
             return Err(SetError::Dimension { name, expected, found });
@@ -125,6 +129,16 @@ pub enum SetError {
         expected: String,
         /// The value's dimension.
         found: String,
+    },
+    /// The value is a plain number, and the parameter has a dimension.
+    #[error("`{name}` is {} {expected}: write the number with a unit, such as {example}", article(expected))]
+    NoUnit {
+        /// The parameter.
+        name: String,
+        /// Its dimension.
+        expected: String,
+        /// Its default value.
+        example: String,
     },
     /// The value is not one of the choices.
     #[error("`{name}` is {known}, not {value}")]
