@@ -190,6 +190,34 @@ fn measured_touches_have_the_fit_of_the_array_that_made_them() {
 }
 
 #[test]
+fn touches_that_determine_nothing_are_refused_and_write_no_calibration() {
+    let folder = directory("calibrate_nothing");
+    let [made, out] = ["made", "out"].map(|name| folder.join(name).display().to_string());
+    assert_eq!(measured(&["--self", "--world", "quasistatic", "--out", &made]).0, Some(0));
+    let touches = format!("{made}/touches.csv");
+    let text = std::fs::read_to_string(&touches).unwrap();
+    let with_deviation = |deviation: &str| {
+        let line = |line: &str| format!("{},{deviation}\n", line.rsplit_once(',').unwrap().0);
+        let (header, rows) = text.split_once('\n').unwrap();
+        format!("{header}\n{}", rows.lines().map(line).collect::<String>())
+    };
+    let refused = |file: &str, arguments: &[&str]| {
+        let (code, fitted) = measured(&[&["--touches", file, "--out", &out], arguments].concat());
+        assert_eq!((code, fitted.len()), (Some(1), 2), "{fitted:?}");
+        for whisker in &fitted {
+            assert!(whisker["refusal"].as_str().unwrap().contains("hardly determine"), "{whisker}");
+        }
+        assert!(!std::path::Path::new(&out).join("l0.yaml").exists());
+    };
+    refused(&touches, &["--position-noise", "1 m"]);
+    let vague = folder.join("vague.csv").display().to_string();
+    for deviation in ["1000", "1e6"] {
+        std::fs::write(&vague, with_deviation(deviation)).unwrap();
+        refused(&vague, &[]);
+    }
+}
+
+#[test]
 fn touches_of_a_whisker_that_the_rig_lacks_and_too_few_touches_are_refused() {
     let folder = directory("calibrate_few_touches");
     let file = folder.join("touches.csv").display().to_string();

@@ -46,6 +46,22 @@ pub enum TouchRefusal {
         /// Distance of the fitted base from that of the rig (mm).
         off_mm: f64,
     },
+    /// The touches say hardly more than the tolerances of manufacture.
+    #[error(
+        "the touches hardly determine the whisker: tips would be uncertain by {tip_mm:.2} mm, and by {untouched_mm:.2} mm \
+         without any touch; touch at more heights and directions, or measure the readings and the poses more exactly"
+    )]
+    Undetermined {
+        /// Standard deviation of tips (mm) that the errors of the fit cause.
+        tip_mm: f64,
+        /// The same without any touch.
+        untouched_mm: f64,
+    },
+    /// The whisker has no contact by which a fit could be judged.
+    #[error(
+        "the tip of the whisker of the rig can touch no surface as in contour following; check its length and direction"
+    )]
+    NoContact,
     /// Nothing explains the residuals.
     #[error(
         "the residuals do not match the noise: chi-square {chi_square:.0}, at most {limit:.0} is expected; likely causes \
@@ -69,6 +85,8 @@ const FIRM: f64 = 1e-6;
 const NO_RESPONSE: f64 = 0.1;
 /// Differences from the rig, in standard deviations of the tolerances, that a whisker may have.
 const TOLERATED: f64 = 3.0;
+/// Share of the uncertainty without any touch that touches must leave at most.
+const DETERMINED: f64 = 0.5;
 /// Standard deviations of the parameters for other explanations: play (rad), curvature (1/m), base (m).
 const PLAY: f64 = 2e-5;
 const CURVATURE: f64 = 5.0;
@@ -113,7 +131,7 @@ impl TouchFit {
         }
         let excess = self.excess();
         if self.chi_square <= limit && excess <= TOLERATED {
-            return Ok(());
+            return self.check_information();
         }
         let refit = |whisker: &Whisker, deviations: &[(Parameter, f64)]| {
             let mut prior = Prior::of(readings);
@@ -147,6 +165,18 @@ impl TouchFit {
         match best {
             Some((chi_square, cause)) if chi_square <= limit => Err(cause),
             _ => Err(TouchRefusal::Unexplained { chi_square: self.chi_square, limit }),
+        }
+    }
+
+    /// Checks that the touches say more about tips than the tolerances of manufacture.
+    fn check_information(&self) -> Result<(), TouchRefusal> {
+        let [tip, untouched] = [self, &Self::untouched(&self.whisker)].map(Self::tip_deviation);
+        if untouched.is_infinite() {
+            Err(TouchRefusal::NoContact)
+        } else if tip < DETERMINED * untouched {
+            Ok(())
+        } else {
+            Err(TouchRefusal::Undetermined { tip_mm: 1e3 * tip, untouched_mm: 1e3 * untouched })
         }
     }
 
