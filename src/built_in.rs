@@ -1,5 +1,7 @@
 //! The scenarios and policies that the program carries, so that the bench runs wherever it does.
 
+use std::path::Path;
+
 /// A text that is part of the program.
 #[derive(Debug, Clone, Copy)]
 pub struct TextFile {
@@ -7,6 +9,14 @@ pub struct TextFile {
     pub path: &'static str,
     /// What it says.
     pub text: &'static str,
+}
+
+impl TextFile {
+    /// The one of `files` with this name, such as `disk`. A path with a folder or an ending is no name.
+    #[must_use]
+    pub fn named(files: &'static [Self], name: &Path) -> Option<&'static Self> {
+        files.iter().find(|file| Path::new(file.path).file_stem() == Some(name.as_os_str()))
+    }
 }
 
 macro_rules! text_file {

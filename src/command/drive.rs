@@ -129,7 +129,7 @@ fn emulated_config(
 fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure> {
     let before = Instant::now();
     let mut files = CommandFiles::new();
-    let source = load::read(scenario, &mut files)?;
+    let source = load::scenario_text(scenario, &mut files)?;
     let Loaded { value: mut scene, hash: scenario_hash } = load::scenario_in(&source, &mut files)?;
     let policy = load::policy(&arguments.machine, &mut files)?;
     output::warnings(&policy.value);

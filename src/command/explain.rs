@@ -40,7 +40,7 @@ impl Document for Pruning {
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
-    let source = load::read(&arguments.scenario, &mut files)?;
+    let source = load::scenario_text(&arguments.scenario, &mut files)?;
     let scene = load::scenario_in(&source, &mut files)?.value;
     let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, &mut files)?;
     let program = policy.value.artifact.program;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use clap::Args;
 use sha2::Digest;
 
-use super::diff::scenes;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::inspect::breakpoints;
@@ -15,7 +14,7 @@ use super::output;
 use super::progress::Progress;
 use super::provenance::of_trials;
 use super::trials::{calibrated, drawn, inputs, make_directory, say_calibrations};
-use crate::built_in::DEFAULT_POLICY;
+use crate::built_in::SCENARIOS;
 use crate::diagnostic::Source;
 use crate::file::{CommandFiles, Output};
 use crate::inspect::{Breakpoints, NearMiss, NearMisses};
@@ -36,7 +35,7 @@ pub(super) struct NearMissArguments {
     /// Run all runs of this sweep instead, under its own policies
     #[arg(long, value_name = "FILE", conflicts_with_all = ["policy", "settings", "world"])]
     sweep: Option<PathBuf>,
-    /// Policy. The default is `vibrissa.fsm`
+    /// Policy. The default is that of each scenario, or `vibrissa.fsm`
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
     #[command(flatten)]
@@ -68,7 +67,7 @@ pub(super) fn near_misses(arguments: &NearMissArguments) -> Result<Exit, Failure
     let mut files = CommandFiles::new();
     let all = match &arguments.sweep {
         Some(path) => of_sweep(path, arguments, &mut files)?,
-        None => vec![of_scenarios(arguments, &mut files)?],
+        None => of_scenarios(arguments, &mut files)?,
     };
     make_directory(arguments.out.as_deref())?;
     let mut listed = Vec::new();
@@ -82,7 +81,7 @@ pub(super) fn near_misses(arguments: &NearMissArguments) -> Result<Exit, Failure
         listed.extend(misses);
     }
     progress.finish();
-    let provenance = of_trials(all.iter().flat_map(|runs| runs.trials.iter().map(|(_, trial)| trial)));
+    let provenance = of_trials(trials(&all));
     if let Some(directory) = &arguments.out {
         let file = files.output("--out", &directory.join("near-misses.json"))?;
         file.write(output::list(&provenance, &listed)?)?;
@@ -133,33 +132,52 @@ impl PolicyRuns {
     }
 }
 
-/// The runs of the bench or of scenarios.
-fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Result<PolicyRuns, Failure> {
-    let loaded = match &arguments.policy {
-        Some(path) => load::policy(path, files)?,
-        None => load::built_in_policy(&DEFAULT_POLICY)?,
-    };
-    output::warnings(&loaded.value);
-    let Loaded { value: loaded, hash } = arguments.settings.of(loaded)?;
-    let source = loaded.text.as_ref().map(|text| &text.source);
-    let policy = explained(source, &loaded.artifact.program.name)?;
-    let program = Arc::new(policy.explained.with_parameters_of(&loaded.artifact.program));
+/// The runs of the bench or of scenarios, by policy: the requested one, or the one of each scenario.
+fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Result<Vec<PolicyRuns>, Failure> {
     let mismatch = arguments.array.load(files)?;
-    let mut trials = Vec::new();
-    for (path, Loaded { value: mut scene, hash: mut scenario_hash }) in scenes(&arguments.scenarios, files)? {
+    let mut all: Vec<(Vec<u8>, PolicyRuns)> = Vec::new();
+    for source in sources(&arguments.scenarios, files)? {
+        let path = PathBuf::from(&source.name);
+        let Loaded { value: mut scene, hash: mut scenario_hash } = load::scenario_in(&source, files)?;
+        let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
+        let Loaded { value: policy, hash } = arguments.settings.of(policy)?;
+        let hash = hash.finalize();
+        let index = if let Some(index) = all.iter().position(|(of, _)| **of == *hash) {
+            index
+        } else {
+            output::warnings(&policy);
+            let text = policy.text.as_ref().map(|text| &text.source);
+            let explained = explained(text, &policy.artifact.program.name)?;
+            all.push((hash.to_vec(), PolicyRuns { policy: explained, trials: Vec::new() }));
+            all.len() - 1
+        };
+        let (_, runs) = &mut all[index];
+        let program = Arc::new(runs.policy.explained.with_parameters_of(&policy.artifact.program));
         mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
-        let world = arguments.world.of(&scene);
-        let inputs = inputs(&path, &scenario_hash.finalize(), &hash.clone().finalize());
-        let name = scene.name.clone();
-        let trial = Trial { world, inputs, ..Trial::new(scene, Arc::clone(&program)) };
-        trials.push((name, trial));
+        let inputs = inputs(&path, &scenario_hash.finalize(), &hash);
+        let (world, name) = (arguments.world.of(&scene), scene.name.clone());
+        runs.trials.push((name, Trial { world, inputs, ..Trial::new(scene, program) }));
     }
-    mismatch.check_seed(trials.iter().map(|(_, trial)| &trial.scene)).map_err(LoadError::from)?;
-    for (_, trial) in &mut trials {
+    let mut all: Vec<PolicyRuns> = all.into_iter().map(|(_, runs)| runs).collect();
+    mismatch.check_seed(trials(&all).map(|trial| &trial.scene)).map_err(LoadError::from)?;
+    for (_, trial) in all.iter_mut().flat_map(|runs| &mut runs.trials) {
         *trial = calibrated(trial, &mismatch)?;
     }
-    say_calibrations(trials.iter().map(|(_, trial)| trial));
-    Ok(PolicyRuns { policy, trials })
+    say_calibrations(trials(&all));
+    Ok(all)
+}
+
+/// The texts of scenarios. Without any, those of the bench.
+fn sources(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Vec<Source>, LoadError> {
+    if paths.is_empty() {
+        return Ok(SCENARIOS.iter().map(|file| Source::new(file.path, file.text)).collect());
+    }
+    paths.iter().map(|path| load::scenario_text(path, files)).collect()
+}
+
+/// The trials of all policies.
+fn trials(all: &[PolicyRuns]) -> impl Iterator<Item = &Trial> {
+    all.iter().flat_map(|runs| runs.trials.iter().map(|(_, trial)| trial))
 }
 
 /// The runs of a sweep, by policy.

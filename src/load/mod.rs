@@ -15,12 +15,12 @@ pub(crate) use mismatch::UNCALIBRATED;
 #[cfg(feature = "lsp")]
 pub(crate) use policy::library_for_editor;
 pub(crate) use policy::{
-    Policy, PolicyFile, PolicyText, built_in_policy, chart, policy, policy_file, policy_for, policy_in, policy_text,
-    program, set, tested_policy, with_libraries, with_settings,
+    Policy, PolicyFile, PolicyText, built_in_policy, chart, named_by_built_in, policy, policy_file, policy_for,
+    policy_in, policy_text, program, set, tested_policy, with_libraries, with_settings,
 };
 pub(crate) use recording::recording;
 pub(crate) use scenario::{
-    beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in, touches,
+    beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in, scenario_text, touches,
 };
 pub(crate) use seed::{SeedWithoutEffect, check_noise_seed};
 pub(crate) use text::{read, read_standard};

@@ -6,14 +6,15 @@ use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, ParameterValue, Program, SetError};
 
 use super::scenario::beside;
-use super::text::{SIZE_LIMIT, name, reason, text};
+use super::text::{SIZE_LIMIT, bytes, name, reason, text};
 use super::{LoadError, Loaded};
-use crate::built_in::{DEFAULT_POLICY, TextFile};
+use crate::built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::file::CommandFiles;
 use crate::policy::chart::Chart;
 use crate::policy::{self, Compiled, Library, PolicyTest, gather_and_compile};
-use crate::scene::Scene;
+use crate::scenario;
+use crate::scene::{PolicyReference, PolicySetting, Scene};
 
 /// The content of a policy file.
 pub(crate) enum PolicyFile {
@@ -21,10 +22,10 @@ pub(crate) enum PolicyFile {
     Machine(Box<Artifact>),
 }
 
-/// Reads the text of a policy or a compiled machine. A machine is recognised by its first bytes or by its name. The
+/// Reads the text of a policy or a compiled machine. The path can also be the name of a built-in policy. A machine is recognised by its first bytes or by its name. The
 /// hash is that of the file alone.
 pub(crate) fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, LoadError> {
-    let bytes = files.read(path, ARTIFACT_LIMIT).map_err(LoadError::read(path))?;
+    let bytes = bytes(path, ARTIFACT_LIMIT, POLICIES, files)?;
     let hash = Sha256::new().chain_update(&bytes);
     let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(LoadError::artifact(path))?))
@@ -85,8 +86,8 @@ pub(crate) fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loa
     }
 }
 
-/// The policy for the scene that was read from `source`: the requested one, else the one that the scene names, else the
-/// built-in one.
+/// The policy for the scene that was read from `source`: the requested one, else the one that the scene names, with its
+/// parameters, else the built-in one.
 pub(crate) fn policy_for(
     asked: Option<&Path>,
     scene: &Scene,
@@ -95,12 +96,25 @@ pub(crate) fn policy_for(
 ) -> Result<Loaded<Policy>, LoadError> {
     match (asked, &scene.policy) {
         (Some(path), _) => policy(path, files),
-        (None, Some(file)) => {
+        (None, Some(_)) if TextFile::named(SCENARIOS, Path::new(&source.name)).is_some() => {
+            built_in_policy(named_by_built_in(scene))
+        }
+        (None, Some(PolicyReference { file, settings })) => {
             let path = beside(Path::new(&source.name), &file.path);
-            policy(&path, files).map_err(LoadError::named_in(source, file))
+            let named = policy(&path, files).map_err(LoadError::named_in(source, file))?;
+            settings.iter().try_fold(named, |policy, PolicySetting { name, value, span }| {
+                let unfit = |cause: SetError| LoadError::at(source, scenario::unfit(*span, &cause.to_string()));
+                set(policy, &[(name.clone(), value.clone())]).map_err(unfit)
+            })
         }
         (None, None) => built_in_policy(&DEFAULT_POLICY),
     }
+}
+
+/// The built-in policy with the name that a built-in scenario gives, or else the default one.
+pub(crate) fn named_by_built_in(scene: &Scene) -> &'static TextFile {
+    let named = scene.policy.as_ref().and_then(|policy| TextFile::named(POLICIES, Path::new(&policy.file.name)));
+    named.unwrap_or(&DEFAULT_POLICY)
 }
 
 /// Reads a policy without its warnings, which take most of the time of a compilation.

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::calibration::{ContactSet, TouchReading};
 
-use super::text::{read, reason};
+use super::text::{SIZE_LIMIT, bytes, name, read, reason, text};
 use super::{LoadError, Loaded};
-use crate::built_in::TextFile;
+use crate::built_in::{SCENARIOS, TextFile};
 use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_touches};
 use crate::diagnostic::Source;
 use crate::file::CommandFiles;
@@ -17,7 +17,14 @@ use crate::scene::Scene;
 
 /// Reads a scenario with the files that it refers to. The hash is that of all of them.
 pub(crate) fn scenario(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
-    scenario_in(&read(path, files)?, files)
+    scenario_in(&scenario_text(path, files)?, files)
+}
+
+/// Reads the text of a scenario. The path can also be the name of a built-in one, such as `disk`.
+pub(crate) fn scenario_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
+    let name = name(path)?;
+    let bytes = bytes(path, SIZE_LIMIT, SCENARIOS, files)?;
+    Ok(Source::new(name, text(&bytes).map_err(LoadError::read(path))?))
 }
 
 /// The scenario of a text that has been read, with the files that it refers to.

@@ -6,6 +6,7 @@ use std::path::Path;
 use vibrissa_runtime::units::suggest;
 
 use super::LoadError;
+use crate::built_in::TextFile;
 use crate::diagnostic::{NotUtf8, Source, utf8};
 use crate::file::CommandFiles;
 
@@ -22,6 +23,20 @@ pub(crate) fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, Load
     let name = name(path)?;
     let text = files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(path))?;
     Ok(Source::new(name, text))
+}
+
+/// Reads a file. If there is none at the path, the one of `built_in` with this name.
+pub(super) fn bytes(
+    path: &Path,
+    limit: usize,
+    built_in: &'static [TextFile],
+    files: &mut CommandFiles,
+) -> Result<Vec<u8>, LoadError> {
+    let missing = |cause: &Error| cause.kind() == ErrorKind::NotFound;
+    match (files.read(path, limit), TextFile::named(built_in, path)) {
+        (Err(cause), Some(file)) if missing(&cause) => Ok(file.text.as_bytes().to_owned()),
+        (read, _) => read.map_err(LoadError::read(path)),
+    }
 }
 
 pub(super) fn text(bytes: &[u8]) -> Result<String, Error> {

@@ -9,7 +9,6 @@ use vibrissa_runtime::machine::{Artifact, ParameterValue};
 
 use super::error::{RequestError, RequestFault};
 use super::input::{Input, PolicyInput};
-use crate::built_in::{DEFAULT_POLICY, POLICIES, TextFile};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::file::CommandFiles;
 use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText};
@@ -134,7 +133,7 @@ impl TrialRequest {
             .map_err(|cause| RequestFault::Mismatch { scenario: path.clone(), cause })?;
         let policy = match (&self.policy, &self.scenario) {
             (Some(given), _) => given_policy(given, files)?,
-            (None, Input::BuiltIn(_)) => load::built_in_policy(built_in_policy(&scene))?,
+            (None, Input::BuiltIn(_)) => load::built_in_policy(load::named_by_built_in(&scene))?,
             (None, _) => load::policy_for(None, &scene, &source, files)?,
         };
         compiled(&policy.value);
@@ -176,7 +175,7 @@ pub fn scene(input: &Input) -> Result<Scene, RequestError> {
 
 fn scenario_text(input: &Input, files: &mut CommandFiles) -> Result<Source, LoadError> {
     match input {
-        Input::File(path) => load::read(path, files),
+        Input::File(path) => load::scenario_text(path, files),
         Input::Text(source) => Ok(source.clone()),
         Input::BuiltIn(file) => Ok(Source::new(file.path, file.text)),
     }
@@ -187,15 +186,6 @@ fn read_scene(input: &Input, source: &Source, files: &mut CommandFiles) -> Resul
         Input::BuiltIn(file) => load::built_in_scenario(file),
         Input::File(_) | Input::Text(_) => load::scenario_in(source, files),
     }
-}
-
-/// The built-in policy with the name that a built-in scenario gives, or else the default one.
-fn built_in_policy(scene: &Scene) -> &'static TextFile {
-    let is_named = |file: &&TextFile| {
-        let name = Path::new(file.path).file_stem().and_then(|stem| stem.to_str());
-        scene.policy.as_ref().is_some_and(|policy| name == Some(&policy.name))
-    };
-    POLICIES.iter().find(is_named).unwrap_or(&DEFAULT_POLICY)
 }
 
 fn given_policy(input: &PolicyInput, files: &mut CommandFiles) -> Result<Loaded<Policy>, RequestError> {

@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::node::{Entry, Node, Placed};
 use super::objects::Objects;
 use super::reader::Reader;
-use super::{expect, fault, file, mismatch, object, rig, start, stop};
+use super::{expect, fault, mismatch, object, policy, rig, start, stop};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::physics::Physics;
 use crate::scenario::Files;
@@ -62,7 +62,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         None => Some(expect::default(stop.as_ref().map(|stop| &stop.value))),
     };
     let policy = match fields.entry("policy") {
-        Some(entry) => file::reference(reader, &entry.value).map(Some),
+        Some(entry) => policy::read(reader, &entry.value).map(Some),
         None => Some(None),
     };
     let world = match fields.entry("world") {

@@ -50,7 +50,7 @@ fn the_disk_of_the_thesis_reads_as_its_figures() {
             Expectation::Bound { metric: Metric::Coverage, bound: 0.95 },
         ]
     );
-    assert_eq!(scene.policy.unwrap().path, Path::new("../policies/thesis.fsm"));
+    assert_eq!(scene.policy.unwrap().file.path, Path::new("../policies/thesis.fsm"));
     assert_eq!(scene.seed, 0);
 }
 

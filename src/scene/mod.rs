@@ -13,6 +13,6 @@ pub(crate) use clearance::{Overlap, overlap};
 pub use expectation::{Expectation, Metric, Outcome, Violation};
 pub(crate) use gap::gap;
 pub use jitter::Jitter;
-pub use scene::{FileReference, Scene, SelfCalibration, Truth};
+pub use scene::{FileReference, PolicyReference, PolicySetting, Scene, SelfCalibration, Truth};
 pub use stop::{Goal, LoopClosed, Reached, Stalled, Stop};
 pub use world_kind::{WorldKind, WorldSetup};

@@ -10,6 +10,7 @@ use crate::mismatch::{Mismatch, TrueArray};
 use crate::physics::Physics;
 use crate::solid::Solid;
 use vibrissa_runtime::calibration::Calibration;
+use vibrissa_runtime::machine::ParameterValue;
 use vibrissa_runtime::rig::Rig;
 
 /// A scenario after reading and validation.
@@ -38,7 +39,7 @@ pub struct Scene {
     /// The expectations.
     pub expect: Vec<Expectation>,
     /// The default policy.
-    pub policy: Option<FileReference>,
+    pub policy: Option<PolicyReference>,
     /// The default simulator.
     pub world: Option<WorldKind>,
     /// The seed of the sensor noise.
@@ -113,6 +114,26 @@ pub struct FileReference {
     /// The name of the file without its extension.
     pub name: String,
     /// The position of the reference in the text.
+    pub span: Span,
+}
+
+/// The policy of a scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolicyReference {
+    /// Its file.
+    pub file: FileReference,
+    /// The parameters that the scenario sets.
+    pub settings: Vec<PolicySetting>,
+}
+
+/// A parameter of a policy with its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolicySetting {
+    /// Name of the parameter.
+    pub name: String,
+    /// The value. The policy checks it later.
+    pub value: ParameterValue,
+    /// The position of the name in the text.
     pub span: Span,
 }
 

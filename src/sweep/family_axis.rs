@@ -1,11 +1,10 @@
 //! The axes of a sweep that vary parameters of families.
 
 use super::axis::{AxisValue, AxisValues};
-use super::read;
 use super::scenes::{ScenesOf, SweepScenes};
 use crate::catalogue::{self, Parameter};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scenario::{Node, Placed, Reader, fault};
+use crate::scenario::{Node, Placed, Reader, fault, quantity};
 use vibrissa_runtime::units::{Quantity, suggest};
 
 /// Reads the values of a parameter that all `scenes` must have.
@@ -51,7 +50,8 @@ fn parameter(reader: &mut Reader<'_>, scenes: &SweepScenes, name: &Placed<String
 
 /// Reads a value that all `parameters` allow.
 fn value(reader: &mut Reader<'_>, parameters: &[&Parameter], item: &Placed<Node>) -> Option<AxisValue<Quantity>> {
-    let value = read::quantity(reader, item)?;
+    let (value, text) = quantity(reader, item)?;
+    let value = AxisValue { value, text, span: reader.extent(item) };
     for parameter in parameters {
         if value.value.dimension != parameter.dimension {
             let message = format!("`{}` is not a value of `{}`", value.text, parameter.name);

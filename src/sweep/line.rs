@@ -3,10 +3,13 @@
 use crate::results::Document;
 use std::collections::BTreeMap;
 
+use serde::de::Error as _;
 use serde::{Deserialize, Serialize};
 
 use crate::results::{CalibrationIdentity, Ending, Figures, RunResult, TipShares};
 use crate::sweep::SweepRun;
+
+use super::shard::run_name;
 
 /// The result of a run of a sweep. Its serialised form is a line of the results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -91,6 +94,7 @@ impl SweepLine {
 /// The fields of a line that are counted.
 #[derive(Debug, Deserialize)]
 struct Counted {
+    run: String,
     key: String,
     passed: bool,
     #[serde(default)]
@@ -117,10 +121,13 @@ struct Collisions {
 /// The key and the figures of a run, read from its line.
 ///
 /// # Errors
-/// If it is not the line of a run.
+/// If it is not the line of a run, or if its two names of the run do not belong together.
 pub(crate) fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
-    let Counted { key, passed, passed_but_for_tips, outcome: ending, error_mm, collisions } =
+    let Counted { run, key, passed, passed_but_for_tips, outcome: ending, error_mm, collisions } =
         serde_json::from_str(line)?;
+    if run != run_name(&key) {
+        return Err(serde_json::Error::custom(format!("`run` is `{run}`, which is not that of the key `{key}`")));
+    }
     let collided = collisions.is_some_and(|collisions| collisions.count > 0);
     let tips = error_mm
         .as_ref()

@@ -70,7 +70,10 @@ pub(crate) fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Optio
             let wrong = |cause| ResultsError::Line { path: path.clone(), line: number, cause };
             let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
             let index = indices.get(&key).ok_or_else(|| wrong(format!("there is no run `{key}` in the sweep")))?;
-            if let Some(first) = owners.insert(*index, path) {
+            let before = merged.figures.get(index);
+            if let Some(first) = owners.insert(*index, path)
+                && (first != path || results::is_settled(before))
+            {
                 return Err(ResultsError::Twice { first: first.clone(), second: path.clone(), key });
             }
             merged.lines.insert(*index, line.trim_end().to_owned());

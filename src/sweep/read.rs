@@ -6,11 +6,10 @@ use super::family_axis;
 use super::scenes::{ScenesOf, SweepScenes};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::family::{FAMILIES, Family};
-use crate::scenario::{Change, Entry, Fields, Node, Placed, Reader, fault, name, reference, root_place};
+use crate::scenario::{self, Change, Entry, Fields, Node, Placed, Reader, fault, name, reference, root_place};
 use crate::scene::FileReference;
 use std::collections::BTreeMap;
 use vibrissa_runtime::machine::ParameterValue;
-use vibrissa_runtime::units::{Dimension, Quantity, parse_quantity};
 
 const SCENES: &str = "[{family: convex-corner, trials: 100}]";
 const POLICIES: &str = "[../policies/vibrissa.fsm]";
@@ -233,40 +232,8 @@ fn parameters(reader: &mut Reader<'_>, _: &Placed<String>, items: &[Placed<Node>
     Some(AxisValues::Parameter(values.into_iter().collect::<Option<_>>()?))
 }
 
-/// Reads a value of a parameter of a policy: a quantity, or the name of a choice. The policy checks it later.
 fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<AxisValue<ParameterValue>> {
-    let choice = match &node.value {
-        Node::Bool(truth) => Some(truth.to_string()),
-        Node::Text(text) if let Ok(ParameterValue::Choice(choice)) = ParameterValue::parse(text) => Some(choice),
-        _ => None,
-    };
-    if let Some(text) = choice {
-        return Some(AxisValue { value: ParameterValue::Choice(text.clone()), text, span: reader.extent(node) });
-    }
-    let AxisValue { value, text, span } = quantity(reader, node)?;
-    Some(AxisValue { value: ParameterValue::Quantity(value), text, span })
-}
-
-/// Reads a quantity. Its dimension is checked later.
-pub(super) fn quantity(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<AxisValue<Quantity>> {
-    let plain = |value_si| Quantity { value_si, dimension: Dimension::NUMBER, unit: None };
-    let (value, text) = match &node.value {
-        Node::Integer(integer) => (plain(*integer as f64), integer.to_string()),
-        Node::Float(float) => (plain(*float), float.to_string()),
-        Node::Text(text) => match parse_quantity(text) {
-            Ok(quantity) => (quantity, text.clone()),
-            Err(error) => {
-                let message = format!("`{text}` is not the value of a parameter");
-                let fault = Diagnostic::error(fault::QUANTITY, message, reader.extent(node), error.to_string());
-                reader.report(fault.hint(error.hint()));
-                return None;
-            }
-        },
-        _ => {
-            reader.wrong_type(node, "a number with its unit", "for example `2 cm/s`");
-            return None;
-        }
-    };
+    let (value, text) = scenario::parameter(reader, node)?;
     Some(AxisValue { value, text, span: reader.extent(node) })
 }
 

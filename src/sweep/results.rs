@@ -12,7 +12,7 @@ use super::header::Header;
 use super::line::read_line;
 use super::lines::{LINE_LIMIT, Lines};
 use crate::file;
-use crate::results::{Figures, Provenance};
+use crate::results::{Ending, Figures, Provenance};
 use crate::sweep::Sweep;
 
 /// The error of a file of results.
@@ -100,8 +100,8 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// Opens or creates the file of results at `path`, and returns the figures of its runs by index. An incomplete last
-    /// line is removed. No other process can write to the file until this is dropped.
+    /// Opens or creates the file of results at `path`, and returns the figures of its runs by index, without those that
+    /// crashed. An incomplete last line is removed. No other process can write to the file until this is dropped.
     ///
     /// # Errors
     /// [`ResultsError`] if the file cannot be used, or has other content than results of the part of `sweep` in
@@ -119,9 +119,10 @@ impl Results {
             let (key, figures) = read_line(line).map_err(|cause| cause.to_string())?;
             let index = indices.get(&key).filter(|_| header.shard.has(&key));
             let index = *index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
-            let twice = there.insert(index, figures).is_some();
-            if twice { Err(format!("the run `{key}` occurs a second time")) } else { Ok(()) }
+            let before = there.insert(index, figures);
+            if is_settled(before.as_ref()) { Err(format!("the run `{key}` occurs a second time")) } else { Ok(()) }
         })?;
+        there.retain(|_, figures| is_settled(Some(figures)));
         Ok((results, there))
     }
 
@@ -175,6 +176,12 @@ impl Results {
         };
         written.map_err(ResultsError::file(&self.path))
     }
+}
+
+/// True if a run with these figures is not repeated. What made a process crash, such as a lack of memory, may be over. So a run that
+/// crashed is repeated when its sweep is resumed, and its later line replaces the one of the crash.
+pub(super) fn is_settled(figures: Option<&Figures>) -> bool {
+    figures.is_some_and(|figures| figures.ending != Ending::Crashed)
 }
 
 /// Checks that results with this `header` may replace the file at `path`: there is none, or it has results of the same

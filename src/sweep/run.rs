@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::axis::{Axis, AxisValues};
-use super::shard::run_hash;
+use super::shard::run_name;
 use super::{Sweep, SweepScenes};
 use super::{family_axis, read};
 use crate::diagnostic::{Diagnostic, Source, Span};
@@ -82,7 +82,7 @@ impl<'s> SweepRun<'s> {
     /// The hash of its key, in hexadecimal digits.
     #[must_use]
     pub fn hash(&self) -> String {
-        format!("{:016x}", run_hash(&self.key()))
+        run_name(&self.key())
     }
 
     /// The axes with the values of this run as written in the sweep.

@@ -44,8 +44,13 @@ impl Shard {
     }
 }
 
+/// The name of a run: the hash of its key in hexadecimal digits.
+pub(super) fn run_name(key: &str) -> String {
+    format!("{:016x}", run_hash(key))
+}
+
 /// The hash of a run's key.
-pub(super) fn run_hash(key: &str) -> u64 {
+fn run_hash(key: &str) -> u64 {
     Sha256::digest(key).iter().take(8).fold(0, |hash, &byte| hash << 8 | u64::from(byte))
 }
 

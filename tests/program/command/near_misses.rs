@@ -61,6 +61,33 @@ fn a_guard_that_was_almost_enabled_is_listed_and_one_that_was_enabled_is_not() {
 }
 
 #[test]
+fn every_scenario_is_run_under_its_own_policy_unless_one_is_given() {
+    let folder = directory("near-misses-policies");
+    let file = |name: &str| folder.join(name).display().to_string();
+    for (name, policy) in [("one", "first"), ("two", "second"), ("three", "first")] {
+        let scene = SCENE.replace("still", name) + &format!("policy: {policy}.fsm\n");
+        fs::write(file(&format!("{name}.yaml")), scene).unwrap();
+        fs::write(file(&format!("{policy}.fsm")), POLICY.replace("machine m", &format!("machine {policy}"))).unwrap();
+    }
+    let scenes = ["one.yaml", "two.yaml", "three.yaml"].map(file);
+    let listed = |arguments: &[&str]| {
+        let output = vibrissa(&[&["near-misses", "--json"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let listed: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let of =
+            |miss: &Value| (miss["policy"].as_str().unwrap().to_owned(), miss["scenario"].as_str().unwrap().to_owned());
+        listed.as_array().unwrap().iter().map(of).collect::<std::collections::BTreeSet<_>>()
+    };
+    let pair = |policy: &str, scene: &str| (policy.to_owned(), scene.to_owned());
+    // Equal near misses of a policy are listed once, with the first of its scenarios.
+    let own = listed(&scenes.each_ref().map(String::as_str));
+    assert_eq!(own, [pair("first", "one"), pair("second", "two")].into());
+    assert_eq!(listed(&[&scenes[2]]), [pair("first", "three")].into());
+    let given = listed(&[&scenes[0], "--policy", &file("second.fsm")]);
+    assert_eq!(given, [pair("second", "one")].into());
+}
+
+#[test]
 fn the_runs_of_a_sweep_are_taken_together() {
     let folder = directory("near-misses-sweep");
     fs::write(folder.join("still.yaml"), SCENE).unwrap();

@@ -34,6 +34,73 @@ fn a_policy_that_is_not_there_is_told_at_the_place_that_names_it() {
 }
 
 #[test]
+fn built_in_scenes_and_policies_have_names_everywhere() {
+    let folder = directory("built-in-names");
+    let run = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"));
+        let output = command.current_dir(&folder).args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+        stdout(&output)
+    };
+    let figures = |arguments: &[&str]| {
+        let text = run(&[&["run", "--world", "quasistatic", "--json"], arguments].concat());
+        let mut results: serde_json::Value = serde_json::from_str(&text).unwrap();
+        ["scene", "policy", "error_mm"].map(|key| results[0][key].take())
+    };
+    // The scene of the disk names `thesis.fsm`.
+    let own = figures(&["disk"]);
+    assert_eq!(own[1], "thesis");
+    assert_eq!(own, figures(&["disk", "--policy", "thesis"]));
+    assert_eq!(figures(&["box", "--policy", "vibrissa"])[1], "vibrissa");
+    assert!(run(&["explain", "round-tunnel"]).contains("steps"));
+    assert!(run(&["check", "thesis"]).contains("thesis"));
+    assert!(run(&["mjcf", "wall"]).contains("<mujoco"));
+    // A file of that name comes first.
+    std::fs::write(folder.join("disk"), "name: disk\n").unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"))
+        .current_dir(&folder)
+        .args(["run", "disk"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("`objects`"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_scenario_sets_parameters_of_its_policy_and_the_command_line_sets_them_again() {
+    let folder = directory("policy-set");
+    let disk = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+    let thesis = std::fs::canonicalize("policies/thesis.fsm").unwrap().display().to_string();
+    let scene = |set: &str| {
+        let path = folder.join("disk.yaml").display().to_string();
+        let policy = format!("policy: {{file: {thesis}, set: {set}}}");
+        std::fs::write(&path, disk.replace("policy: ../policies/thesis.fsm", &policy)).unwrap();
+        path
+    };
+    let time = |path: &str, arguments: &[&str]| {
+        let output = vibrissa(&[&["run", path, "--world", "quasistatic", "--json"], arguments].concat());
+        let results: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        results[0]["sim_s"].as_f64().unwrap()
+    };
+    let slow = time(&scene("{speed: 40 mm/s}"), &[]);
+    assert!(slow > 1.2 * time("scenarios/disk.yaml", &[]));
+    assert_eq!(slow.to_bits(), time("scenarios/disk.yaml", &["--set", "speed=40 mm/s"]).to_bits());
+    assert!(time(&scene("{speed: 40 mm/s}"), &["--set", "speed=60 mm/s"]) < slow / 1.2);
+    for (set, code, reason) in [
+        ("{sped: 40 mm/s}", "S0502", "no parameter `sped`"),
+        ("{speed: 40 deg}", "S0502", "`speed` is a speed"),
+        ("{speed: 40 m/s}", "S0502", "`speed`"),
+        ("{speed: [1]}", "S0103", "a number with its unit"),
+        ("3", "S0103", "a mapping"),
+    ] {
+        let output = vibrissa(&["run", &scene(set)]);
+        assert_eq!(output.status.code(), Some(2), "{set}");
+        let told = stderr(&output);
+        assert!(told.contains(code) && told.contains(reason), "{set}: {told}");
+    }
+}
+
+#[test]
 fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
     let path = directory("printed").join("scene.yaml").display().to_string();
     let result = |arguments: &[&str]| {

@@ -187,6 +187,46 @@ fn a_process_for_runs_that_is_killed_costs_nothing_and_none_outlives_the_sweep()
 }
 
 #[test]
+fn a_crashed_run_is_repeated_and_a_line_with_the_name_of_another_run_is_refused() {
+    let directory = directory("sweep-crashed");
+    let file = directory.join("two.yaml").display().to_string();
+    let text = format!(
+        "name: two\npolicies: [{ROOT}/policies/vibrissa.fsm]\nscenes: [{{family: convex-corner, trials: 2}}]\n\
+         vary: {{scenario: {{stop: [{{time: 1 s}}]}}}}\n"
+    );
+    fs::write(&file, text).unwrap();
+    let [out, merged] = ["out", "merged.jsonl"].map(|name| directory.join(name).display().to_string());
+    let results = Path::new(&out).join("results.jsonl");
+    assert_eq!(vibrissa(&["sweep", &file, "--out", &out]).status.code(), Some(0));
+    let whole = fs::read_to_string(&results).unwrap();
+    let line = whole.lines().nth(2).unwrap();
+    let mut crashed: Value = serde_json::from_str(line).unwrap();
+    let keys = ["run", "key", "scenes", "trial", "settings", "passed", "policy"];
+    crashed.as_object_mut().unwrap().retain(|key, _| keys.contains(&key.as_str()));
+    crashed["outcome"] = "crashed".into();
+    crashed["reason"] = "its process was killed".into();
+    // As if it had crashed twice.
+    fs::write(&results, whole.replace(line, &format!("{crashed}\n{crashed}"))).unwrap();
+    assert_eq!(vibrissa(&["sweep", &file, "--out", &out]).status.code(), Some(0));
+    assert_eq!(count(&results), 5, "the run has a third line");
+    assert_eq!(vibrissa(&["sweep", &file, "--out", &out]).status.code(), Some(0));
+    assert_eq!(count(&results), 5, "nothing is left");
+    let output = vibrissa(&["merge", &results.display().to_string(), "--out", &merged, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    fs::write(directory.join("whole.jsonl"), &whole).unwrap();
+    assert_eq!(set(Path::new(&merged)), set(&directory.join("whole.jsonl")));
+
+    let other = whole.lines().nth(1).unwrap();
+    let name = |line: &str| serde_json::from_str::<Value>(line).unwrap()["run"].as_str().unwrap().to_owned();
+    fs::write(&results, whole.replace(&name(line), &name(other))).unwrap();
+    for arguments in [&["sweep", &file, "--out", &out][..], &["merge", &results.display().to_string()]] {
+        let output = vibrissa(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains("line 3: `run` is"), "{}", stderr(&output));
+    }
+}
+
+#[test]
 fn faults_of_a_sweep_and_of_what_it_names_are_told_with_their_place() {
     let directory = directory("sweep-faults");
     let file = directory.join("bad.yaml");

@@ -22,9 +22,6 @@ pub(crate) enum StaleError {
     Results(#[from] ResultsError),
 }
 
-/// What a page says below its title if nobody could make it again. Readers see it, so the check bears such a page.
-const OUTDATED: &str = "**Outdated:** an older program made these figures. `cargo x results --stale` makes them again.";
-
 /// A page with the names of its inputs that changed.
 struct Stale {
     page: &'static Page,
@@ -52,11 +49,6 @@ fn changes(root: &Path, page: &Page) -> Result<Vec<String>, StampError> {
     Ok(published.map_or_else(|| vec!["it has no stamp".to_owned()], |published| stamp.changes(&published)))
 }
 
-/// True if a published page says that it is outdated.
-fn says_so(root: &Path, page: &Page) -> bool {
-    fs::read_to_string(root.join(page.path())).is_ok_and(|text| text.lines().any(|line| line == OUTDATED))
-}
-
 /// What differs from the stamp of the published page with this name.
 pub(crate) fn changes_of(root: &Path, name: &str) -> Result<Vec<String>, ResultsError> {
     let page = PAGES.iter().find(|page| page.name == name).ok_or_else(|| ResultsError::NoPage(name.to_owned()))?;
@@ -66,10 +58,6 @@ pub(crate) fn changes_of(root: &Path, name: &str) -> Result<Vec<String>, Results
 /// Compares the stamps of all pages, and the table of README.md, with what they are made from.
 pub(crate) fn check(root: &Path) -> Result<(), StaleError> {
     let stale = Stale::among(root, PAGES.iter()).map_err(ResultsError::from)?;
-    let (outdated, stale): (Vec<_>, Vec<_>) = stale.into_iter().partition(|stale| says_so(root, stale.page));
-    for page in outdated {
-        println!("      {} says that it is outdated; `cargo x results --stale` renews it", page.page.path());
-    }
     let mut lines: Vec<_> = stale.iter().map(Stale::line).collect();
     let [made, present] = readme(root)?;
     if made != present {
@@ -150,19 +138,6 @@ mod tests {
         let said = check(root).map_or_else(|error| error.to_string(), |()| String::new());
         fs::write(root.join(file), text).unwrap();
         said
-    }
-
-    #[test]
-    fn a_page_that_says_that_it_is_outdated_is_borne_and_renewed() {
-        let root = copy("outdated");
-        let page = PAGES.iter().find(|page| page.name == "families").unwrap();
-        let path = root.join(page.path());
-        fs::write(&path, "# Page\n\nOld figures.\n").unwrap();
-        assert!(check(&root).is_err());
-        fs::write(&path, format!("# Page\n\n{OUTDATED}\n\nOld figures.\n")).unwrap();
-        assert_eq!(check(&root).map_err(|error| error.to_string()), Ok(()));
-        assert_eq!(Stale::among(&root, std::iter::once(page)).unwrap().len(), 1);
-        fs::remove_dir_all(root).unwrap();
     }
 
     #[test]

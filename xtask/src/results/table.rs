@@ -46,11 +46,12 @@ impl Show {
 }
 
 /// A number with so many decimals. A small one has as many as three significant digits need, if fewer than two were left: errors in a
-/// simulator without noise are not zero.
+/// simulator without noise are not zero. A number that these decimals show exactly, such as one that somebody else reports, gets no more.
 fn fixed(number: f64, decimals: usize) -> String {
-    let size = number.abs();
-    if size == 0.0 || decimals == 0 || size >= 9.5 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)) {
-        return format!("{number:.decimals$}");
+    let (size, short) = (number.abs(), format!("{number:.decimals$}"));
+    let is_exact = short.parse() == Ok(number);
+    if is_exact || decimals == 0 || size >= 9.5 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)) {
+        return short;
     }
     let needed =
         (0..=9_usize).find(|&decimals| size >= 99.5 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)));
