@@ -224,6 +224,8 @@ struct Compiler<'f> {
     /// Current depth in the syntax tree, and number of visited nodes.
     depth: usize,
     work: usize,
+    /// True while an item is lowered whose errors are reported where it is declared.
+    is_told_elsewhere: bool,
     /// The item that was being lowered when the program exceeded its limits.
     oversized_item: Option<Span>,
 }
@@ -266,6 +268,7 @@ impl<'f> Compiler<'f> {
             contract_count: 0,
             depth: 0,
             work: 0,
+            is_told_elsewhere: false,
             oversized_item: None,
         }
     }
@@ -282,7 +285,8 @@ impl<'f> Compiler<'f> {
     /// similar name takes time, and copies of a behaviour have the same errors. It counts as reported.
     fn is_told(&mut self, code: &'static str, span: Span) -> bool {
         let is_same = |known: &Diagnostic| known.code == code && known.primary.span == span;
-        let is_told = self.diagnostics.len() >= FAULT_LIMIT || self.diagnostics.iter().any(is_same);
+        let is_told =
+            self.is_told_elsewhere || self.diagnostics.len() >= FAULT_LIMIT || self.diagnostics.iter().any(is_same);
         self.faults += usize::from(is_told);
         is_told
     }

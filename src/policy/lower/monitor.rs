@@ -80,9 +80,11 @@ impl<'f> Compiler<'f> {
             return None;
         }
         let faults = (self.diagnostics.len(), self.faults);
+        // Errors of the content are reported where it is declared.
+        let outer = std::mem::replace(&mut self.is_told_elsewhere, true);
         let inner = self.within(file, |compiler| compiler.scope_of_arguments(&content.arguments));
         let value = self.start(file, content, Origin::Unknown(inner.clone()), inner);
-        // Errors of the content are reported where it is declared.
+        self.is_told_elsewhere = outer;
         self.diagnostics.truncate(faults.0);
         self.faults = faults.1;
         Some(value)
@@ -289,7 +291,9 @@ impl<'f> Compiler<'f> {
             let Some(given) = given.ok().and_then(|given| given.get(position?).copied()) else { continue };
             let outer = Rc::clone(&self.scopes[user]);
             let faults = (self.diagnostics.len(), self.faults);
+            let told = std::mem::replace(&mut self.is_told_elsewhere, true);
             let value = self.within(self.hierarchy.file(user), |compiler| compiler.expression(&outer, given.value));
+            self.is_told_elsewhere = told;
             self.diagnostics.truncate(faults.0);
             self.faults = faults.1;
             let value = value.filter(|value| matches!(value.r#type, Type::Monitor(_)));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use vibrissa::built_in::SCENARIOS;
+use vibrissa::built_in::{SCENARIOS, TextFile};
 use vibrissa::diagnostic::Source;
 use vibrissa::policy::{compile, gather};
 use vibrissa::scenario::{self, read_calibration, read_mismatch};
@@ -19,9 +19,10 @@ fn text(path: &str) -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
 }
 
-/// The disk with a calibrated array.
-fn scene(seed: Option<u64>) -> Scene {
-    let mut scene = scenario::read(&Source::new(SCENARIOS[0].path, SCENARIOS[0].text)).unwrap();
+/// A built-in scene with a calibrated array.
+fn scene(name: &str, seed: Option<u64>) -> Scene {
+    let file = TextFile::named(SCENARIOS, Path::new(name)).unwrap();
+    let mut scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
     let path = if seed.is_some() { "scenarios/mismatch/array.yaml" } else { "scenarios/mismatch/plausible.yaml" };
     let mut mismatch = read_mismatch(&Source::new(path, text(path))).unwrap();
     mismatch.seed = seed;
@@ -37,21 +38,21 @@ fn scene(seed: Option<u64>) -> Scene {
 /// On a convex object no whisker is caught by a surface that turns towards it. The base angle of a whisker that rotates to another
 /// posture must not look like that.
 #[test]
-fn calibrated_arrays_trace_the_disk_without_a_wrong_tip_in_both_worlds() {
+fn calibrated_arrays_trace_convex_objects_without_a_wrong_tip_in_both_worlds() {
     let source = Source::new("vibrissa.fsm", text("policies/vibrissa.fsm"));
     let program = Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not there")))).unwrap());
     let worlds = WorldKind::ALL.into_iter().filter(|kind| cfg!(feature = "sim") || *kind == WorldKind::QuasiStatic);
     let trials: Vec<_> = worlds
-        .flat_map(|world| SEEDS.map(|seed| (world, seed)))
-        .map(|(world, seed)| {
-            let mut trial = Trial::new(scene(seed), Arc::clone(&program));
+        .flat_map(|world| ["disk", "box"].map(|name| (world, name)))
+        .flat_map(|(world, name)| SEEDS.map(|seed| (world, name, seed)))
+        .map(|(world, name, seed)| {
+            let mut trial = Trial::new(scene(name, seed), Arc::clone(&program));
             trial.world = world.into();
-            (world, seed, trial)
+            (format!("{world}, {name}, array {seed:?}"), trial)
         })
         .collect();
-    let results = in_parallel(&trials, processors(), |(_, _, trial)| trial.run().unwrap(), |_| ());
-    for ((world, seed, _), result) in trials.iter().zip(&results) {
-        let case = format!("{world}, array {seed:?}");
+    let results = in_parallel(&trials, processors(), |(_, trial)| trial.run().unwrap(), |_| ());
+    for ((case, _), result) in trials.iter().zip(&results) {
         assert_eq!(result.run.outcome, Outcome::Completed, "{case}");
         assert_eq!(result.violations, vec![], "{case}");
         assert_eq!(result.score.collisions.count, 0, "{case}");
