@@ -220,7 +220,7 @@ impl From<Policy> for PreparedPolicy {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::built_in::SCENARIOS;
+    use crate::built_in::{DEFAULT_POLICY, SCENARIOS};
 
     fn request() -> TrialRequest {
         TrialRequest { world: Some(WorldKind::QuasiStatic), ..TrialRequest::new(Input::BuiltIn(&SCENARIOS[0])) }
