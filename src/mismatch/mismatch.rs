@@ -89,7 +89,7 @@ impl Mismatch {
         let values = self.common.draw(&mut random(MAX_WHISKERS));
         let mut platform = assumed.platform.clone();
         if let Some(servo) = values.get(Property::Servo) {
-            platform.servo = servo;
+            (platform.servo, platform.yaw_servo) = (servo, None);
         }
         TrueArray {
             rig: Rig { platform, whiskers, sensing: assumed.sensing.clone() },

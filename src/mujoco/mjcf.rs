@@ -353,11 +353,10 @@ fn angles_at_rest(whisker: &Whisker, model: ShaftModel) -> String {
 
 fn write_actuators(xml: &mut String, platform: &Platform) -> fmt::Result {
     writeln!(xml, r"  <actuator>")?;
-    for (joint, inertia) in
-        [("platform/x", platform.mass), ("platform/y", platform.mass), ("platform/yaw", platform.inertia)]
-    {
+    let joints = [("platform/x", platform.mass), ("platform/y", platform.mass), ("platform/yaw", platform.inertia)];
+    for ((joint, inertia), servo) in joints.into_iter().zip(&platform.servos()) {
         // A velocity servo with the gain k moves the inertia J with the time constant J / k.
-        writeln!(xml, r#"    <velocity name="{joint}" joint="{joint}" kv="{}"/>"#, inertia / platform.servo)?;
+        writeln!(xml, r#"    <velocity name="{joint}" joint="{joint}" kv="{}"/>"#, inertia / servo)?;
     }
     writeln!(xml, r"  </actuator>")
 }

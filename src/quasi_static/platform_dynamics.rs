@@ -33,8 +33,12 @@ impl Twist {
         self.linear + self.angular * perpendicular(arm)
     }
 
-    fn blend(&self, other: &Self, own: f64, others: f64) -> Self {
-        Self { linear: own * self.linear + others * other.linear, angular: own * self.angular + others * other.angular }
+    /// A weighted sum, with the weights of the linear and of the angular part.
+    fn blend(&self, other: &Self, own: [f64; 2], others: [f64; 2]) -> Self {
+        Self {
+            linear: own[0] * self.linear + others[0] * other.linear,
+            angular: own[1] * self.angular + others[1] * other.angular,
+        }
     }
 }
 
@@ -64,16 +68,18 @@ impl PlatformDynamics {
         period: f64,
         surfaces: &Surfaces,
     ) -> Option<f64> {
-        let Platform { servo, mass, inertia, .. } = self.platform;
+        let Platform { mass, inertia, .. } = self.platform;
+        let servos = self.platform.servos();
+        let (servo, yaw_servo) = (servos.x, servos.z);
         let target = Twist {
             linear: command.velocity_world + force * (servo / mass),
-            angular: command.yaw_rate + moment * (servo / inertia),
+            angular: command.yaw_rate + moment * (yaw_servo / inertia),
         };
-        let remaining = (-period / servo).exp();
+        let remaining = [servo, yaw_servo].map(|servo| (-period / servo).exp());
         // The time integral of the decaying difference to the target velocity.
-        let transient = servo * (1.0 - remaining);
-        let mut motion = self.velocity.blend(&target, transient, period - transient);
-        let mut velocity = self.velocity.blend(&target, remaining, 1.0 - remaining);
+        let transient = [servo * (1.0 - remaining[0]), yaw_servo * (1.0 - remaining[1])];
+        let mut motion = self.velocity.blend(&target, transient, transient.map(|transient| period - transient));
+        let mut velocity = self.velocity.blend(&target, remaining, remaining.map(|remaining| 1.0 - remaining));
         let impact = self.footprint.constrain(self.pose, &mut motion, &mut velocity, surfaces);
         self.pose.position += motion.linear;
         self.pose.heading += motion.angular;

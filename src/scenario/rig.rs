@@ -9,7 +9,7 @@ use super::{timing, whisker};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::physics::{Integrator, Physics, Preset, ShaftModel, Solver};
 use vibrissa_runtime::rig::keys::platform::{
-    CENTRE_OF_MASS, INERTIA, LENGTH, MASS, NOSE_WIDTH, SERVO, SPEED_LIMIT, TAIL_WIDTH, YAW_RATE_LIMIT,
+    CENTRE_OF_MASS, INERTIA, LENGTH, MASS, NOSE_WIDTH, SERVO, SPEED_LIMIT, TAIL_WIDTH, YAW_RATE_LIMIT, YAW_SERVO,
 };
 use vibrissa_runtime::rig::{Platform, Rig, YawController};
 use vibrissa_runtime::units::{Dimension, format_si};
@@ -91,6 +91,11 @@ fn yaw(reader: &mut Reader<'_>, entry: &Entry, yaw: &mut YawController) {
     fields.set(reader, &YAW_INTEGRAL, &mut yaw.integral);
     fields.set(reader, &YAW_LIMIT, &mut yaw.limit);
     fields.finish(reader);
+    if let Some(entry) = fields.entry(YAW_SERVO.name)
+        && let Some(time) = reader.number(&entry.value, &YAW_SERVO)
+    {
+        platform.yaw_servo = Some(time.value);
+    }
 }
 
 /// Reads `physics`, and returns the span of the step if it is given.

@@ -114,7 +114,7 @@ fn every_key_of_a_rig_can_be_set() {
   preset: peer_cable
   platform:
     {tail_width: 1 cm, nose_width: 2 cm, length: 3 cm, centre_of_mass: 1 cm, mass: 2 kg, inertia: 3 kg m^2, servo: 4 ms,
-     speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
+     yaw_servo: 5 ms, speed_limit: 8 m/s, yaw_rate_limit: 9 rad/s, yaw: {proportional: 5 Hz, integral: 6 Hz^2, limit: 7 rad/s}}
   whiskers:
     a:
       {base: [1 mm, 2 mm], direction: 3 rad, pitch: 0.5 rad, out_of_plane: 3, length: 4 cm, radius: 50 um, tip_radius: 20 um, density: 6 g/cm^3,
@@ -134,6 +134,7 @@ fn every_key_of_a_rig_can_be_set() {
             mass: 2.0,
             inertia: 3.0,
             servo: 0.004,
+            yaw_servo: Some(0.005),
             speed_limit: 8.0,
             yaw_rate_limit: 9.0,
             yaw: YawController { proportional: 5.0, integral: 6.0, limit: 7.0 },

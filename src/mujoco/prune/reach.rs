@@ -170,7 +170,7 @@ pub fn may_be_rigid(whisker: &Whisker, clearance: f64, travel: f64, is_rigid: bo
 
 /// True if a command changes the velocities (m/s, rad/s) so little that a whisker without contact reads nothing of it.
 ///
-/// A servo starts with the acceleration `a = Δv / T` and the angular acceleration `α`. The base has the distance `r`
+/// A servo starts with the acceleration `a = Δv / T` and the angular acceleration `α`, here with the faster of both servos. The base has the distance `r`
 /// from the centre of mass. A whisker of mass `m` and length `L` exerts at most the moment `m L (a + α (r + L)) / 2` on
 /// its hinge, and twice that while it swings.
 #[must_use]
@@ -179,6 +179,6 @@ pub fn is_gentle(rig: &Rig, whisker: &Whisker, command: &Command, velocity: Vect
     let mass: f64 = (0..shaft.links).map(|link| shaft.link_mass(link)).sum();
     let radius = whisker.base_body.coords.norm() + shaft.length;
     let change = (command.velocity_world - velocity).norm() + radius * (command.yaw_rate - yaw_rate).abs();
-    let moment = mass * shaft.length * change / rig.platform.servo;
+    let moment = mass * shaft.length * change / rig.platform.servos().min();
     moment <= INERTIAL_SHARE * rig.sensing.contact_threshold * whisker.hinge.stiffness
 }

@@ -118,11 +118,12 @@ proptest! {
     #[test]
     fn a_body_in_free_air_is_never_blocked(
         commands in commands(), servo in prop::sample::select(vec![5e-3, 0.05, 0.3]),
+        yaw_servo in prop::option::of(prop::sample::select(vec![5e-3, 0.3])),
         control_rate in prop::sample::select(vec![10.0, 30.0, 100.0]),
         spoil in prop::sample::select(vec![(|_, _| {}) as fn(usize, &mut Vec<Sample>), lose_poses, wrap_headings]),
     ) {
         let mut rig = Rig::default();
-        rig.platform.servo = servo;
+        (rig.platform.servo, rig.platform.yaw_servo) = (servo, yaw_servo);
         rig.sensing.control_rate = control_rate;
         for world in worlds(&rig, &[], START) {
             let mut run = Loop { spoil, ..Loop::new(&rig, world) };

@@ -90,6 +90,7 @@ fn numbers(config: &Config) -> Vec<Number> {
         mass,
         inertia,
         servo,
+        yaw_servo,
         speed_limit,
         yaw_rate_limit,
         ..
@@ -109,6 +110,9 @@ fn numbers(config: &Config) -> Vec<Number> {
             (yaw_rate_limit, platform::YAW_RATE_LIMIT),
         ],
     );
+    if let Some(yaw_servo) = yaw_servo {
+        add(&mut numbers, "rig.platform", [(yaw_servo, platform::YAW_SERVO)]);
+    }
     config.rig.whiskers.iter().for_each(|whisker| whisker_numbers(&mut numbers, whisker));
     let Sensing { sample_rate, control_rate, filter_cutoff, contact_threshold, angle_noise, surface_roughness, .. } =
         config.rig.sensing;

@@ -21,7 +21,7 @@ macro_rules! section {
 
         impl $section {
             fn apply(&self, target: &mut $target) {
-                $(if let Some(value) = self.$key { target.$key = value; })*
+                $(if let Some(value) = self.$key { target.$key = value.into(); })*
             }
         }
     };
@@ -35,6 +35,7 @@ section!(PlatformSection of Platform {
     mass: "some::mass",
     inertia: "some::inertia",
     servo: "some::time",
+    yaw_servo: "some::time",
     speed_limit: "some::speed",
     yaw_rate_limit: "some::angular_speed",
 });

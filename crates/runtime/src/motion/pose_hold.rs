@@ -41,14 +41,17 @@ pub(super) struct PoseHold {
 impl PoseHold {
     /// Creates the pose hold of `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
-        let (servo, period) = (rig.platform.servo, 1.0 / rig.sensing.control_rate);
-        let proportional = PROPORTIONAL / (servo + period);
-        let controller = |limit| PiController::new(proportional, proportional * proportional / 4.0, limit);
-        let speed = controller(math::min(SPEED_LIMIT, rig.platform.speed_limit) / 2.0_f64.sqrt());
+        let (servos, period) = (rig.platform.servos(), 1.0 / rig.sensing.control_rate);
+        let controller = |servo: f64, limit| {
+            let proportional = PROPORTIONAL / (servo + period);
+            PiController::new(proportional, proportional * proportional / 4.0, limit)
+        };
+        let speed = controller(servos.x, math::min(SPEED_LIMIT, rig.platform.speed_limit) / 2.0_f64.sqrt());
+        let yaw_rate = controller(servos.z, math::min(YAW_RATE_LIMIT, rig.platform.yaw_rate_limit));
         Self {
-            controllers: [speed.clone(), speed, controller(math::min(YAW_RATE_LIMIT, rig.platform.yaw_rate_limit))],
+            controllers: [speed.clone(), speed, yaw_rate],
             period,
-            braking: BRAKING * servo,
+            braking: BRAKING * math::max(servos.x, servos.z),
             stopped: 0.0,
             last: Pose::UNKNOWN,
             held: None,

@@ -12,8 +12,8 @@ use crate::signal::Command;
 /// goes beyond the wanted speed while this changes.
 #[derive(Debug, Clone)]
 pub struct ServoLead {
-    /// Stated time constant of the servos (s), and the control period (s).
-    stated: f64,
+    /// Stated time constants of the servos (s): x, y, yaw. And the control period (s).
+    stated: Vector3<f64>,
     period: f64,
     /// Speed (m/s) and yaw rate (rad/s) that the platform cannot exceed.
     limits: (f64, f64),
@@ -27,7 +27,7 @@ impl ServoLead {
     #[must_use]
     pub fn new(rig: &Rig) -> Self {
         Self {
-            stated: rig.platform.servo,
+            stated: rig.platform.servos(),
             period: rig.sensing.control_rate.recip(),
             limits: (rig.platform.speed_limit, rig.platform.yaw_rate_limit),
             wanted: Vector3::zeros(),
@@ -35,19 +35,24 @@ impl ServoLead {
         }
     }
 
-    /// Returns the command for servos with the time constant `servo` (s). With the stated servos it is `command` itself.
+    /// Returns the command for servos with the time constant `servo` (s). That of the yaw rate has the same ratio to the
+    /// stated one. With the stated servos it is `command` itself.
     pub fn next(&mut self, command: Command, servo: f64) -> Command {
         let aim = command.velocity_world.push(command.yaw_rate);
-        let (stated_left, left) = (math::exp(-self.period / self.stated), math::exp(-self.period / servo));
-        self.wanted = self.wanted * stated_left + aim * (1.0 - stated_left);
-        let is_stated = (servo - self.stated).abs() < f64::EPSILON;
-        let changed = if is_stated { aim } else { (self.wanted - self.actual * left) / (1.0 - left) };
+        let servos = (self.stated / self.stated.x) * servo;
+        let [stated_left, left] = [self.stated, servos].map(|times| times.map(|time| math::exp(-self.period / time)));
+        let [stated_gone, gone] = [stated_left, left].map(|left| left.map(|left| 1.0 - left));
+        self.wanted = self.wanted.component_mul(&stated_left) + aim.component_mul(&stated_gone);
+        let is_stated = (servo - self.stated.x).abs() < f64::EPSILON;
+        let changed =
+            if is_stated { aim } else { (self.wanted - self.actual.component_mul(&left)).component_div(&gone) };
         let (speed, yaw_rate) = (changed.xy().norm(), changed.z);
         let slower = if speed > self.limits.0 { self.limits.0 / speed } else { 1.0 };
         let lead =
             Command { velocity_world: changed.xy() * slower, yaw_rate: yaw_rate.clamp(-self.limits.1, self.limits.1) };
         let lead = if is_stated { command } else { lead };
-        self.actual = self.actual * left + lead.velocity_world.push(lead.yaw_rate) * (1.0 - left);
+        let given = lead.velocity_world.push(lead.yaw_rate);
+        self.actual = self.actual.component_mul(&left) + given.component_mul(&gone);
         lead
     }
 }
@@ -62,9 +67,12 @@ mod tests {
         #[test]
         fn a_platform_with_other_servos_moves_as_the_stated_one(
             commands in prop::collection::vec((-0.05..0.05_f64, -0.5..0.5_f64), 1..60), ratio in 0.3..4.0_f64,
+            yaw_servo in prop::option::of(0.02..0.2_f64),
         ) {
-            let rig = Rig::default();
-            let servo = ratio * rig.platform.servo;
+            let mut rig = Rig::default();
+            rig.platform.yaw_servo = yaw_servo;
+            let stated = rig.platform.servos();
+            let (servo, servos) = (ratio * stated.x, ratio * stated);
             let period = rig.sensing.control_rate.recip();
             let mut lead = ServoLead::new(&rig);
             let (mut actual, mut wanted) = ([0.0; 2], [0.0; 2]);
@@ -73,10 +81,10 @@ mod tests {
                 let given = lead.next(command, servo);
                 for _ in 0..1000 {
                     let step = period / 1000.0;
-                    actual[0] += (given.velocity_world.x - actual[0]) * step / servo;
-                    actual[1] += (given.yaw_rate - actual[1]) * step / servo;
-                    wanted[0] += (speed - wanted[0]) * step / rig.platform.servo;
-                    wanted[1] += (yaw_rate - wanted[1]) * step / rig.platform.servo;
+                    actual[0] += (given.velocity_world.x - actual[0]) * step / servos.x;
+                    actual[1] += (given.yaw_rate - actual[1]) * step / servos.z;
+                    wanted[0] += (speed - wanted[0]) * step / stated.x;
+                    wanted[1] += (yaw_rate - wanted[1]) * step / stated.z;
                 }
                 prop_assert!((actual[0] - wanted[0]).abs() < 1e-3 && (actual[1] - wanted[1]).abs() < 1e-2);
             }

@@ -27,8 +27,8 @@ const TOUCHED_AT: f64 = 1.0 / 3.0;
 pub(super) struct Disturbance {
     /// Corners of the body (m, body frame).
     corners_body: [Point2; 4],
-    /// Time constant of the servos (s).
-    servo: f64,
+    /// Time constants of the servos (s).
+    servos: Motion,
     /// Speed (m/s) of the body's fastest corner by which each whisker may push the body, per base angle of 1 rad.
     pushes: [f64; MAX_WHISKERS],
     /// Newest base angle of each whisker (rad).
@@ -54,17 +54,18 @@ impl Disturbance {
     /// Creates the detection for the body of `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
         let platform = &rig.platform;
+        let servos = platform.servos();
         let corners_body = platform.outline_body();
         let reach = corners_body.iter().map(|corner| corner.coords.norm()).fold(0.0, math::max);
         let mut pushes = [0.0; MAX_WHISKERS];
         for (push, whisker) in pushes.iter_mut().zip(&rig.whiskers) {
             let (whisker, arm) = (whisker.perceived(), whisker.base_body.coords.norm() + whisker.shaft.length);
             let force = whisker.hinge.stiffness / (TOUCHED_AT * whisker.shaft.length);
-            *push = force * platform.servo * (1.0 / platform.mass + reach * arm / platform.inertia);
+            *push = force * servos.x * (1.0 / platform.mass + servos.z / servos.x * reach * arm / platform.inertia);
         }
         Self {
             corners_body,
-            servo: platform.servo,
+            servos,
             pushes,
             base_angles: [0.0; MAX_WHISKERS],
             command: Command::STOP,
@@ -112,11 +113,12 @@ impl Disturbance {
     /// The expected motion of a servo during `period` (s).
     fn expect(&mut self, period: f64) -> Motion {
         let aim = self.command.velocity_world.push(self.command.yaw_rate);
-        let left = math::exp(-period / self.servo);
+        let left = self.servos.map(|servo| math::exp(-period / servo));
+        let gone = left.map(|left| 1.0 - left);
         // Equivalent time at the initial difference from the target speed.
-        let behind = self.servo * (1.0 - left);
-        let motion = self.speed * behind + aim * (period - behind);
-        self.speed = self.speed * left + aim * (1.0 - left);
+        let behind = self.servos.component_mul(&gone);
+        let motion = self.speed.component_mul(&behind) + aim.component_mul(&behind.map(|behind| period - behind));
+        self.speed = self.speed.component_mul(&left) + aim.component_mul(&gone);
         motion
     }
 

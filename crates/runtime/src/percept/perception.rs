@@ -347,7 +347,8 @@ impl Perception {
         self.at_effect
     }
 
-    /// Measured time constant (s) of the servos, or that of the rig.
+    /// Measured time constant (s) of the servos for velocities, or that of the rig. That for yaw rates has the same ratio to the
+    /// one of the rig.
     #[must_use]
     pub fn servo(&self) -> f64 {
         self.motions.as_deref().and_then(Motions::servo).unwrap_or(self.servo)

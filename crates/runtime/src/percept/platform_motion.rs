@@ -32,7 +32,8 @@ pub(super) struct PlatformMotion {
     pose: Pose,
     /// The current command.
     command: Command,
-    /// Time constant of the servos (s) according to the rig, and as measured.
+    /// Time constant of the servos (s) for velocities according to the rig, and as measured. That for yaw rates has the same
+    /// ratio to the one of the rig, because one number for both is measured sooner.
     stated_servo: f64,
     servo: f64,
     /// Measured delay (s) of a pose behind its command.
@@ -44,11 +45,11 @@ pub(super) struct PlatformMotion {
 /// A platform with the time constant of one servo.
 #[derive(Debug, Clone)]
 struct Servo {
-    /// Time constant (s).
+    /// Time constant (s) for velocities.
     time: f64,
     /// Share of the speed difference that is left after a step, and the equivalent time (s) at that difference.
-    left: f64,
-    behind: f64,
+    left: Motion,
+    behind: Motion,
     speed: Motion,
     /// Motion since the start of the run, at the newest steps.
     motions: [Motion; MEMORY],
@@ -99,12 +100,14 @@ impl PlatformMotion {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let steps = ((period / STEP).round() as usize).clamp(1, MOST_STEPS);
         let step = period / steps as f64;
-        let stated_servo = rig.platform.servo;
+        let stated = rig.platform.servos();
+        let stated_servo = stated.x;
         let servo = |factor: f64| {
-            let time = factor * stated_servo;
-            let left = math::exp(-step / time);
+            let times = factor * stated;
+            let left = times.map(|time| math::exp(-step / time));
             let (speed, motions) = (Motion::zeros(), [Motion::zeros(); MEMORY]);
-            Servo { time, left, behind: time * (1.0 - left), speed, motions }
+            let behind = times.component_mul(&left.map(|left| 1.0 - left));
+            Servo { time: times.x, left, behind, speed, motions }
         };
         Self {
             period,
@@ -128,7 +131,7 @@ impl PlatformMotion {
         self.command = command;
     }
 
-    /// Measured time constant of the servos (s), if it is not the stated one.
+    /// Measured time constant of the servos (s) for velocities, if it is not the stated one.
     pub(super) fn servo(&self) -> Option<f64> {
         ((self.servo - self.stated_servo).abs() > NEAR * self.stated_servo).then_some(self.servo)
     }
@@ -148,8 +151,10 @@ impl PlatformMotion {
         for _ in 0..self.steps {
             let next = (self.newest + 1) % MEMORY;
             for servo in &mut self.servos {
-                let motion = servo.speed * servo.behind + aim * (self.step - servo.behind);
-                servo.speed = servo.speed * servo.left + aim * (1.0 - servo.left);
+                let motion = servo.speed.component_mul(&servo.behind)
+                    + aim.component_mul(&servo.behind.map(|behind| self.step - behind));
+                servo.speed =
+                    servo.speed.component_mul(&servo.left) + aim.component_mul(&servo.left.map(|left| 1.0 - left));
                 servo.motions[next] = servo.motions[self.newest] + motion;
             }
             self.newest = next;
@@ -266,10 +271,10 @@ mod tests {
     use super::*;
     use crate::geometry::{Point2, Vector2};
 
-    /// A platform that is simulated in steps of 0.1 ms, with a delay (s) of commands or poses and with servos (s).
-    fn measured(commands: &[(f64, f64)], delay: f64, servo: f64) -> PlatformMotion {
-        let rig = Rig::default();
-        let mut platform = PlatformMotion::new(&rig);
+    /// A platform that is simulated in steps of 0.1 ms, with a delay (s) of commands or poses and with the time constants
+    /// of its servos (s).
+    fn measured(rig: &Rig, commands: &[(f64, f64)], delay: f64, servos: Motion) -> PlatformMotion {
+        let mut platform = PlatformMotion::new(rig);
         let (step, per_tick) = (1e-4, 333);
         let period = step * f64::from(per_tick);
         let late = (delay / step).round();
@@ -286,7 +291,7 @@ mod tests {
         for tick in 0..commands.len() * 10 {
             for substep in 0..per_tick {
                 let index = f64::from(u32::try_from(tick).unwrap_or(0)) * f64::from(per_tick) + f64::from(substep);
-                speed += (at(index - late) - speed) * (step / servo);
+                speed += (at(index - late) - speed).component_mul(&servos.map(|servo| step / servo));
                 pose += speed * step;
             }
             platform.advance(period);
@@ -305,9 +310,13 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(24))]
 
         #[test]
-        fn delay_and_servo_are_found(commands in commands(), delay in 0.02..0.12_f64, ratio in 1.0..4.5_f64) {
-            let servo = ratio * Rig::default().platform.servo;
-            let platform = measured(&commands, delay, servo);
+        fn delay_and_servo_are_found(
+            commands in commands(), delay in 0.02..0.12_f64, ratio in 1.0..4.5_f64, yaw_servo in prop::option::of(0.02..0.1_f64),
+        ) {
+            let mut rig = Rig::default();
+            rig.platform.yaw_servo = yaw_servo;
+            let servo = ratio * rig.platform.servo;
+            let platform = measured(&rig, &commands, delay, ratio * rig.platform.servos());
             let found = platform.servo().unwrap_or(0.05);
             prop_assert!((platform.delay() - delay).abs() < 0.015, "{} s, {delay} s", platform.delay());
             prop_assert!((0.75..1.3).contains(&(found / servo)), "{found} s, {servo} s");
@@ -316,7 +325,8 @@ mod tests {
 
         #[test]
         fn a_platform_as_stated_is_left_as_it_is(commands in commands()) {
-            let platform = measured(&commands, 0.0, Rig::default().platform.servo);
+            let rig = Rig::default();
+            let platform = measured(&rig, &commands, 0.0, rig.platform.servos());
             prop_assert_eq!(platform.delay().to_bits(), 0.0_f64.to_bits());
             prop_assert_eq!(platform.servo(), None);
         }

@@ -18,8 +18,10 @@ pub mod platform {
     pub const MASS: Key = Key::new("mass", Dimension::MASS, (1e-3, 100.0), "0.51 kg");
     /// Moment of inertia about the vertical axis.
     pub const INERTIA: Key = Key::new("inertia", Dimension::INERTIA, (1e-9, 100.0), "0.0015 kg m^2");
-    /// Time constant of the servos.
+    /// Time constant of the servos, for velocities.
     pub const SERVO: Key = Key::new("servo", Dimension::TIME, (1e-3, 10.0), "50 ms");
+    /// Time constant of the servos for yaw rates.
+    pub const YAW_SERVO: Key = Key::new("yaw_servo", Dimension::TIME, (1e-3, 10.0), "50 ms");
     /// Largest speed.
     pub const SPEED_LIMIT: Key = Key::new("speed_limit", Dimension::SPEED, (1e-3, 100.0), "1 m/s");
     /// Largest yaw rate.

@@ -1,6 +1,6 @@
 //! The platform and its servos.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::math;
@@ -25,8 +25,11 @@ pub struct Platform {
     pub mass: f64,
     /// Moment of inertia about the vertical through the centre of mass (kg m²).
     pub inertia: f64,
-    /// Time constant of the first-order response of the servos to a commanded velocity or yaw rate (s).
+    /// Time constant of the first-order response of the servos to a commanded velocity (s).
     pub servo: f64,
+    /// Time constant of their response to a commanded yaw rate (s). `None` if it is the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yaw_servo: Option<f64>,
     /// Speed limit of the centre of mass (m/s). No command exceeds it.
     pub speed_limit: f64,
     /// Yaw rate limit (rad/s). No command exceeds it.
@@ -36,6 +39,12 @@ pub struct Platform {
 }
 
 impl Platform {
+    /// Time constants of the servos (s): x, y, yaw.
+    #[must_use]
+    pub fn servos(&self) -> Vector3<f64> {
+        Vector3::new(self.servo, self.servo, self.yaw_servo.unwrap_or(self.servo))
+    }
+
     /// The corners in the body frame (m), counter-clockwise from the right end of the tail. They are distinct, also if
     /// the nose is a point.
     #[must_use]
@@ -61,6 +70,7 @@ impl Default for Platform {
             mass: 0.51,
             inertia: 0.0015,
             servo: 0.05,
+            yaw_servo: None,
             speed_limit: 1.0,
             yaw_rate_limit: std::f64::consts::PI,
             yaw: YawController::default(),
