@@ -20,7 +20,8 @@ pub(crate) use policy::{
 };
 pub(crate) use recording::recording;
 pub(crate) use scenario::{
-    beside, built_in_scenario, contact_sets, count_sets, outline_file, scenario, scenario_in, scenario_text, touches,
+    beside, built_in_scenario, contact_sets, count_sets, outline_file, rig_in, scenario, scenario_in, scenario_text,
+    touches,
 };
 pub(crate) use seed::{SeedWithoutEffect, check_noise_seed};
 pub(crate) use text::{read, read_standard};

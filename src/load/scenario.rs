@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::calibration::{ContactSet, TouchReading};
+use vibrissa_runtime::rig::Rig;
 
 use super::text::{SIZE_LIMIT, bytes, name, read, reason, text};
 use super::{LoadError, Loaded};
@@ -40,6 +41,12 @@ pub(crate) fn outline_file(path: &Path, files: &mut CommandFiles) -> Result<Vec<
 /// The path of a file whose name is relative to the file at `path`.
 pub(crate) fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
     path.parent().unwrap_or(Path::new("")).join(name)
+}
+
+/// The rig of a text that has a rig alone, with the calibrations that it refers to.
+pub(crate) fn rig_in(source: &Source, files: &mut CommandFiles) -> Result<Rig, LoadError> {
+    scenario::read_rig(source, &mut |name| outline_file(&beside(Path::new(&source.name), name), files))
+        .map_err(|faults| LoadError::Faults { source_text: Box::new(source.clone()), faults })
 }
 
 /// A built-in scenario.

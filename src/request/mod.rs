@@ -10,4 +10,4 @@ mod trial_request;
 pub use error::RequestError;
 pub(crate) use error::RequestFault;
 pub use input::{Input, PolicyInput};
-pub use trial_request::{PreparedPolicy, PreparedTrial, TrialRequest, policy, scene};
+pub use trial_request::{PreparedPolicy, PreparedTrial, TrialRequest, policy, rig, scene};

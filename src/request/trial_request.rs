@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{Artifact, ParameterValue};
+use vibrissa_runtime::rig::Rig;
 
 use super::error::{RequestError, RequestFault};
 use super::input::{Input, PolicyInput};
@@ -171,6 +172,20 @@ pub fn scene(input: &Input) -> Result<Scene, RequestError> {
     let mut files = CommandFiles::new();
     let source = scenario_text(input, &mut files)?;
     Ok(read_scene(input, &source, &mut files)?.value)
+}
+
+/// Reads a text that has a rig alone, with the keys that `rig` has in a scenario.
+///
+/// # Errors
+/// [`RequestError`] if the rig cannot be used.
+pub fn rig(input: &Input) -> Result<Rig, RequestError> {
+    let mut files = CommandFiles::new();
+    let source = match input {
+        // The name of a built-in scenario is not that of a rig.
+        Input::File(path) => load::read(path, &mut files)?,
+        Input::Text(_) | Input::BuiltIn(_) => scenario_text(input, &mut files)?,
+    };
+    Ok(load::rig_in(&source, &mut files)?)
 }
 
 fn scenario_text(input: &Input, files: &mut CommandFiles) -> Result<Source, LoadError> {

@@ -44,6 +44,7 @@ pub(crate) use node::{Entry, Node, Placed};
 pub(crate) use parameter::{parameter, quantity};
 pub(crate) use policy::unfit;
 pub(crate) use reader::Reader;
+pub use rig::read_rig;
 pub(crate) use scene::{name, root_place};
 
 use crate::diagnostic::{Diagnostic, Source};

@@ -3,10 +3,10 @@
 use super::fault;
 use super::fields::Fields;
 use super::key::Key;
-use super::node::Entry;
+use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
-use super::{timing, whisker};
-use crate::diagnostic::{Diagnostic, Span};
+use super::{Files, root_place, timing, whisker};
+use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::physics::{Integrator, Physics, Preset, ShaftModel, Solver};
 use vibrissa_runtime::rig::keys::platform::{
     CENTRE_OF_MASS, INERTIA, LENGTH, MASS, NOSE_WIDTH, SERVO, SPEED_LIMIT, TAIL_WIDTH, YAW_RATE_LIMIT, YAW_SERVO,
@@ -25,11 +25,37 @@ const FRICTION: Key = Key::new("friction", Dimension::NUMBER, (0.0, 10.0), "0.3"
 const OBJECT_HEIGHT: Key = Key::new("object_height", Dimension::LENGTH, (1e-3, 10.0), "80 mm");
 const PENETRATION_LIMIT: Key = Key::new("penetration_limit", Dimension::LENGTH, (1e-6, 0.1), "1 mm");
 
+/// Reads a text that has a rig alone: the keys of `rig` in a scenario, or the key `rig` with them.
+///
+/// # Errors
+/// As for [`read`](super::read).
+pub fn read_rig(source: &Source, files: &mut Files<'_>) -> Result<Rig, Vec<Diagnostic>> {
+    let (tree, faults) = fault::parse(source, "rig")?;
+    let mut reader = Reader::new(source, files, faults);
+    let hint = "write at least one key, such as `preset: reference`; see docs/rig.md";
+    let place = root_place(&mut reader, &tree, "rig", hint);
+    let rig = place.and_then(|place| match &tree.value {
+        // Copied from a scenario.
+        Node::Mapping(entries)
+            if let [entry] = entries.as_slice()
+                && entry.key.value == "rig" =>
+        {
+            read(&mut reader, entry)
+        }
+        _ => read_tree(&mut reader, &tree, place),
+    });
+    reader.finish(rig.map(|(rig, _)| rig))
+}
+
 /// Reads `rig` and its physics settings. Omitted keys have the values of the preset, by default those of the reference
 /// rig.
 pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<(Rig, Physics)> {
+    read_tree(reader, &entry.value, entry.key.span)
+}
+
+fn read_tree(reader: &mut Reader<'_>, node: &Placed<Node>, place: Span) -> Option<(Rig, Physics)> {
     let fault_count = reader.fault_count();
-    let mut fields = Fields::of(reader, &entry.value, "a rig", entry.key.span)?;
+    let mut fields = Fields::of(reader, node, "a rig", place)?;
     let preset = fields.entry("preset").and_then(|entry| {
         let index = reader.choice(&entry.value, "a preset", &Preset::ALL.map(Preset::name));
         index.and_then(|index| Preset::ALL.get(index)).copied()
@@ -65,6 +91,11 @@ fn platform(reader: &mut Reader<'_>, entry: &Entry, platform: &mut Platform) {
     fields.set(reader, &MASS, &mut platform.mass);
     fields.set(reader, &INERTIA, &mut platform.inertia);
     fields.set(reader, &SERVO, &mut platform.servo);
+    if let Some(entry) = fields.entry(YAW_SERVO.name)
+        && let Some(time) = reader.number(&entry.value, &YAW_SERVO)
+    {
+        platform.yaw_servo = Some(time.value);
+    }
     fields.set(reader, &SPEED_LIMIT, &mut platform.speed_limit);
     fields.set(reader, &YAW_RATE_LIMIT, &mut platform.yaw_rate_limit);
     if let Some(entry) = fields.entry("yaw") {
@@ -91,11 +122,6 @@ fn yaw(reader: &mut Reader<'_>, entry: &Entry, yaw: &mut YawController) {
     fields.set(reader, &YAW_INTEGRAL, &mut yaw.integral);
     fields.set(reader, &YAW_LIMIT, &mut yaw.limit);
     fields.finish(reader);
-    if let Some(entry) = fields.entry(YAW_SERVO.name)
-        && let Some(time) = reader.number(&entry.value, &YAW_SERVO)
-    {
-        platform.yaw_servo = Some(time.value);
-    }
 }
 
 /// Reads `physics`, and returns the span of the step if it is given.

@@ -30,7 +30,7 @@ mod _native {
     #[pymodule_export]
     use super::result::Result;
     #[pymodule_export]
-    use super::rig::Rig;
+    use super::rig::{Rig, rigs};
     #[pymodule_export]
     use super::trial::{Trial, has_mujoco, use_mujoco};
 }

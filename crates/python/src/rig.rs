@@ -1,14 +1,23 @@
 //! The rig.
 
 use pyo3::prelude::*;
-use vibrissa::request;
+use pyo3::types::PyType;
+use vibrissa::physics::Preset;
+use vibrissa::request::{self, Input};
 
 use crate::error::error;
 use crate::input::GivenInput;
 
 /// A platform with whiskers, as control assumes it: that of a scenario, or the reference rig.
-#[pyclass(frozen, module = "vibrissa")]
+#[pyclass(frozen, eq, module = "vibrissa")]
+#[derive(PartialEq)]
 pub(crate) struct Rig(pub(crate) vibrissa_runtime::rig::Rig);
+
+/// The names of the built-in rigs.
+#[pyfunction]
+pub(crate) fn rigs() -> Vec<&'static str> {
+    Preset::ALL.map(Preset::name).to_vec()
+}
 
 #[pymethods]
 impl Rig {
@@ -17,6 +26,22 @@ impl Rig {
     fn new(scenario: Option<GivenInput<'_>>) -> PyResult<Self> {
         let Some(scenario) = scenario else { return Ok(Self(vibrissa_runtime::rig::Rig::default())) };
         Ok(Self(request::scene(&scenario.into()).map_err(error)?.assumed_rig()))
+    }
+
+    /// Loads a rig without a scenario: a text or a file with the keys that `rig` has in a scenario, or the name of a built-in
+    /// rig.
+    #[classmethod]
+    fn load(_class: &Bound<'_, PyType>, source: GivenInput<'_>) -> PyResult<Self> {
+        if let GivenInput::Path(path) = &source
+            && let Some(preset) = Preset::ALL.into_iter().find(|preset| path.as_os_str() == preset.name())
+        {
+            return Ok(Self(preset.rig().0));
+        }
+        let input = match source {
+            GivenInput::Path(path) => Input::File(path),
+            text @ GivenInput::Text(_) => text.into(),
+        };
+        Ok(Self(request::rig(&input).map_err(error)?))
     }
 
     /// Names of the whiskers, in the order of the readings of a sample.
@@ -47,6 +72,18 @@ impl Rig {
     #[getter]
     fn yaw_rate_limit_rad_s(&self) -> f64 {
         self.0.platform.yaw_rate_limit
+    }
+
+    /// Time constant of the servos for velocities.
+    #[getter]
+    fn servo_s(&self) -> f64 {
+        self.0.platform.servos().x
+    }
+
+    /// Time constant of the servos for yaw rates.
+    #[getter]
+    fn yaw_servo_s(&self) -> f64 {
+        self.0.platform.servos().z
     }
 
     fn __repr__(&self) -> String {

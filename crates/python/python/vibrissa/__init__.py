@@ -20,6 +20,7 @@ from ._native import (
     Trial,
     compile,
     policies,
+    rigs,
     scenarios,
 )
 
@@ -38,6 +39,7 @@ __all__ = [
     "Trial",
     "compile",
     "policies",
+    "rigs",
     "run",
     "scenarios",
 ]

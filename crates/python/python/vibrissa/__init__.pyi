@@ -14,6 +14,7 @@ from ._native import Text as Text
 from ._native import Trial as Trial
 from ._native import compile as compile
 from ._native import policies as policies
+from ._native import rigs as rigs
 from ._native import scenarios as scenarios
 
 class PolicyWarning(UserWarning): ...

@@ -1,0 +1,118 @@
+"""Rigs without a scenario."""
+
+import pytest
+from conftest import ROOT
+
+import vibrissa
+
+KEYS = "platform: {servo: 200 ms, yaw_servo: 0.1 s, speed_limit: 0.2 m/s}\nwhiskers:\n  r0: {length: 120 mm}\n  l0: {length: 120 mm}\n"
+SCENE = (
+    "objects:\n  - circle: {centre: [0.4 m, 0.4 m], radius: 0.3 m}\nstart: {position: [0 m, 72 mm], heading: 90 deg}\n"
+    "stop: {time: 5 s}\n"
+)
+
+
+def indented(text):
+    return "".join(f"  {line}\n" for line in text.splitlines())
+
+
+def scenario(rig):
+    return vibrissa.Text(f"name: mine\nrig:\n{indented(rig)}{SCENE}")
+
+
+def test_a_rig_alone_is_that_of_a_scenario_with_the_same_keys(tmp_path):
+    expected = vibrissa.Rig(scenario(KEYS))
+    file = tmp_path / "rig.yaml"
+    file.write_text(KEYS)
+    for source in [vibrissa.Text(KEYS), vibrissa.Text(f"rig:\n{indented(KEYS)}"), file, str(file)]:
+        assert vibrissa.Rig.load(source) == expected
+    assert expected != vibrissa.Rig()
+    assert (expected.speed_limit_m_s, expected.whiskers) == (0.2, ["r0", "l0"])
+
+
+def test_the_built_in_rigs_have_their_names():
+    assert vibrissa.rigs() == ["reference", "peer_cable", "thesis_array"]
+    for name in vibrissa.rigs():
+        assert vibrissa.Rig.load(name) == vibrissa.Rig(scenario(f"preset: {name}\n"))
+    assert vibrissa.Rig.load("reference") == vibrissa.Rig()
+    assert len(vibrissa.Rig.load("thesis_array").whiskers) == 6
+
+
+def test_a_rig_refers_to_calibrations_beside_its_file(tmp_path):
+    (tmp_path / "measured.yaml").write_bytes((ROOT / "tests/fixtures/arrays/3/r0.yaml").read_bytes())
+    keys = "whiskers: {r0: {calibration: measured.yaml}}"
+    rig = vibrissa.Rig.load(vibrissa.Text(keys, str(tmp_path / "rig.yaml")))
+    assert rig != vibrissa.Rig.load(vibrissa.Text("whiskers: {r0: {length: 100 mm}}"))
+    with pytest.raises(vibrissa.Error, match="cannot use `measured.yaml`"):
+        vibrissa.Rig.load(vibrissa.Text(keys, str(tmp_path / "elsewhere/rig.yaml")))
+
+
+def test_a_rig_that_cannot_be_used_is_refused_with_its_place():
+    with pytest.raises(vibrissa.Error, match=r"a rig has no key `plattform`[^\0]*--> mine.yaml:1:1"):
+        vibrissa.Rig.load(vibrissa.Text("plattform: {}", "mine.yaml"))
+    with pytest.raises(vibrissa.Error, match="the rig is empty"):
+        vibrissa.Rig.load(vibrissa.Text(""))
+    with pytest.raises(vibrissa.Error, match="a rig has no key `name`"):
+        vibrissa.Rig.load(vibrissa.Text("name: mine\nrig: {}"))
+    for name in ["nowhere", "disk"]:
+        with pytest.raises(vibrissa.Error, match=f"cannot read {name}"):
+            vibrissa.Rig.load(name)
+    with pytest.raises(vibrissa.Error, match="yaw_servo"):
+        vibrissa.Rig.load(vibrissa.Text("platform: {yaw_servo: 0 s}"))
+
+
+def test_a_rig_alone_starts_the_control_loop_of_a_run():
+    trial = vibrissa.Trial(scenario(KEYS), "vibrissa", world="quasistatic")
+    result = trial.run(samples=True)
+    control = vibrissa.compile("vibrissa").start(vibrissa.Rig.load(vibrissa.Text(KEYS)))
+    names = ["time_s", "position_m", "heading_rad", "base_angle_rad"]
+    for tick, expected in enumerate(result.ticks["velocity_m_s"]):
+        rows = result.samples["tick"] == tick
+        command = control.tick(*(result.samples[name][rows] for name in names))
+        assert command.velocity_m_s.tobytes() == expected.tobytes(), tick
+
+
+def speed_and_yaw_rate(rig, world, after=0.1, **options):
+    """The shares of a commanded velocity and yaw rate that the platform has after a time."""
+    trial = vibrissa.Trial(scenario(rig), "vibrissa", world=world, **options)
+    episode = trial.begin()
+    seen = [episode.step(0.0, 0.0, 0.0)]
+    # Backwards, away from the object.
+    seen += [episode.step(-0.05, 0.0, 0.5) for _ in range(round(after * 30) + 1)]
+    before, last = seen[-2], seen[-1]
+    moved, turned = last.position_m - before.position_m, last.heading_rad - before.heading_rad
+    return (moved @ moved) ** 0.5 * 30 / 0.05, turned * 30 / 0.5
+
+
+@pytest.mark.parametrize("world", ["quasistatic", "mujoco"])
+def test_translation_and_rotation_have_their_own_servos(world):
+    both = speed_and_yaw_rate("platform: {servo: 200 ms}\n", world)
+    fast = speed_and_yaw_rate("platform: {servo: 200 ms, yaw_servo: 20 ms}\n", world)
+    same = speed_and_yaw_rate("platform: {servo: 200 ms, yaw_servo: 200 ms}\n", world)
+    assert same == pytest.approx(both, rel=1e-12)
+    # The mean share in the last of four periods is 1 - exp(-t / T), at its middle.
+    assert both == pytest.approx((0.44, 0.44), abs=0.03)
+    assert fast[0] == pytest.approx(both[0], abs=0.01) and fast[1] > 0.98
+
+
+def test_a_rig_shows_its_servos():
+    rig = vibrissa.Rig.load(vibrissa.Text("platform: {servo: 200 ms}"))
+    assert (rig.servo_s, rig.yaw_servo_s) == (0.2, 0.2)
+    assert (vibrissa.Rig.load(vibrissa.Text(KEYS)).servo_s, vibrissa.Rig.load(vibrissa.Text(KEYS)).yaw_servo_s) == (0.2, 0.1)
+
+
+def test_a_platform_that_drives_slowly_and_rotates_fast_follows_the_disk():
+    stop = "120 s, loop_closed: {within: 5 mm, after: 5 s}"
+    run = lambda keys: vibrissa.run(
+        vibrissa.Text(f"name: slow\nrig: {{platform: {{{keys}}}}}\n" + SCENE.replace("5 s", stop)), "vibrissa", world="quasistatic"
+    )
+    result = run("servo: 150 ms, yaw_servo: 50 ms")
+    assert result.outcome == "completed" and result.figures["coverage"] > 0.95
+    # With one time constant for both, the rotation is too slow for this policy.
+    assert run("servo: 150 ms").outcome == "timeout"
+
+
+def test_the_servo_of_a_mismatch_is_that_of_both():
+    slow = vibrissa.Text("{servo: 200 ms}")
+    found = speed_and_yaw_rate("platform: {servo: 20 ms, yaw_servo: 30 ms}\n", "quasistatic", mismatch=slow, uncalibrated=True)
+    assert found == pytest.approx((0.44, 0.44), abs=0.03)
