@@ -10,6 +10,10 @@ use vibrissa_runtime::signal;
 use crate::arrays::{Numbers, list, table};
 use crate::samples::GivenSamples;
 
+/// Distance (m) of a tip from the first ones, and time (s) since the first one, for a closed loop. Scenarios mostly have the same.
+const CLOSED_WITHIN: f64 = 5e-3;
+const CLOSED_AFTER: f64 = 5.0;
+
 /// A control loop: perception, machine and motion. It is the loop that simulations and robots run.
 #[pyclass(module = "vibrissa")]
 pub(crate) struct Control {
@@ -89,8 +93,15 @@ impl Control {
         machine.logged().map(shown).collect()
     }
 
-    /// The whiskers that the machine binds, as perceived in the newest tick: arrays with a row for each.
-    fn perceived<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    /// The whiskers that the machine binds, as perceived in the newest tick: arrays with a row for each. A loop is closed by a
+    /// recorded tip within `closed_within_m` of the first ones, at least `closed_after_s` later.
+    #[pyo3(signature = (*, closed_within_m = CLOSED_WITHIN, closed_after_s = CLOSED_AFTER))]
+    fn perceived<'py>(
+        &self,
+        py: Python<'py>,
+        closed_within_m: f64,
+        closed_after_s: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let perception = self.inner.perception();
         let names = &self.inner.machine().program().whiskers;
         let fitted: Vec<usize> = perception.fitted().map(|(whisker, _)| whisker).collect();
@@ -106,6 +117,10 @@ impl Control {
         });
         perceived.set_item("tip_m", table(py, tips.collect(), 2)?)?;
         perceived.set_item("tip_spread_m", each(&|whisker| perception.recorded_deviation(whisker)))?;
+        let recorded = |&whisker: &usize| perception.recorded_tip(whisker).is_some();
+        perceived.set_item("recorded", list(py, fitted.iter().map(recorded).collect()))?;
+        let closed = |&whisker: &usize| perception.loop_closed(whisker, closed_within_m, closed_after_s);
+        perceived.set_item("loop_closed", list(py, fitted.iter().map(closed).collect()))?;
         Ok(perceived)
     }
 }

@@ -23,8 +23,34 @@ def test_a_machine_repeats_the_commands_of_a_run_bit_for_bit(policy):
         perceived = control.perceived()
         assert np.array_equal(perceived["deflection_rad"], ticks["deflection_rad"][tick])
         assert np.array_equal(perceived["touching"], ticks["touching"][tick])
+        assert np.array_equal(perceived["recorded"], ticks["recorded"][tick])
+        recorded = perceived["recorded"]
+        assert np.array_equal(perceived["tip_m"][recorded], ticks["tip_m"][tick][recorded])
     assert len(ticks["time_s"]) > 1000
     assert control.status == "running"
+
+
+def test_a_closed_loop_is_perceived_in_the_tick_after_the_tip_that_closes_it():
+    trial = vibrissa.Trial("disk", "vibrissa", world="quasistatic")
+    result = trial.run(samples=True)
+    assert result.outcome == "completed"
+    control = vibrissa.compile("vibrissa").start(trial.rig)
+    names = ["time_s", "position_m", "heading_rad", "base_angle_rad"]
+    closed, early, never = [], [], []
+    for tick in range(len(result.ticks["time_s"])):
+        rows = result.samples["tick"] == tick
+        control.tick(*(result.samples[name][rows] for name in names))
+        perceived = control.perceived()
+        assert perceived["loop_closed"].shape == (len(perceived["whisker"]),) and perceived["loop_closed"].dtype == bool
+        closed.append(perceived["loop_closed"].any())
+        early.append(control.perceived(closed_within_m=0.05)["loop_closed"].any())
+        never.append(control.perceived(closed_after_s=1e6)["loop_closed"].any())
+    assert not any(never)
+    assert np.argmax(early) < len(closed) - 2
+    # The scenario ends at the tip that closes the loop, and perception knows it a tick later.
+    rows = result.samples["tick"] == len(closed) - 1
+    control.tick(*(result.samples[name][rows] for name in names))
+    assert control.perceived()["loop_closed"].any() and not any(closed)
 
 
 def test_the_bytes_are_those_that_the_program_compiles(tmp_path):
