@@ -2,7 +2,9 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use numpy::PyArray3;
 use pyo3::prelude::*;
+use vibrissa::report::frame;
 use vibrissa::run::{Ending, Step, SteppedRun, TickRecord};
 use vibrissa::trial::{ExecuteError, Trial};
 use vibrissa::world::World;
@@ -11,6 +13,7 @@ use vibrissa_runtime::signal::Command;
 
 use crate::arrays::{list, table};
 use crate::error::error;
+use crate::raster::Pixels;
 use crate::result::Result;
 use crate::traced_outline::TracedOutline;
 
@@ -115,6 +118,17 @@ impl Episode {
         });
         let (trial, result) = taken.ok_or_else(|| error("the episode goes on, or its result was taken"))?;
         Result::new(py, trial, result, None)
+    }
+
+    /// The scene from above after the newest step: an array of 600 x 800 x 3 numbers from 0 to 255.
+    fn frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let pixels = py.detach(|| {
+            let inner = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let taken = || error("the result of the episode was taken; draw the last frame before");
+            let run = inner.run.as_ref().ok_or_else(taken)?;
+            Pixels::draw(&frame(&inner.trial.scene, run.trace()))
+        });
+        pixels?.array(py)
     }
 }
 

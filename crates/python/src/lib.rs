@@ -7,6 +7,7 @@ mod episode;
 mod error;
 mod input;
 mod machine;
+mod raster;
 mod result;
 mod rig;
 mod samples;

@@ -15,6 +15,7 @@ import vibrissa.gym
     [
         {},
         {"world": "mujoco"},
+        {"render_mode": "rgb_array"},
         {"scenario": "wall", "jitter": (0.02, 0.3), "mismatch": ROOT / "scenarios/mismatch/plausible.yaml"},
     ],
 )
@@ -92,3 +93,47 @@ def test_the_commands_of_the_caller_move_the_platform():
     # A second backwards, less the delay of the servos.
     moved = (seen["position_m"] - start) @ cos_sin
     assert moved == pytest.approx(-0.1, abs=0.015)
+
+
+def test_each_step_has_a_frame_that_shows_where_the_platform_is():
+    environment = vibrissa.gym.WhiskerEnv("disk", time_limit_s=1.0, render_mode="rgb_array")
+    assert set(environment.metadata["render_modes"]) == {"rgb_array", "svg"}
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        environment.render()
+    environment.reset(seed=0)
+    frames, over = [environment.render()], False
+    while not over:
+        _, _, terminated, truncated, _ = environment.step([0.0, 0.0, 1.0])
+        frames.append(environment.render())
+        over = terminated or truncated
+    assert {(frame.shape, frame.dtype) for frame in frames} == {((600, 800, 3), np.dtype(np.uint8))}
+    assert np.array_equal(environment.render(), frames[-1])
+    # The platform has turned by a radian, and the disk and the white margin are where they were.
+    changed = (frames[0] != frames[-1]).any(axis=2)
+    assert 0.001 < changed.mean() < 0.1
+    assert (frames[-1][0, 0] == 255).all() and len(np.unique(frames[-1].reshape(-1, 3), axis=0)) > 10
+    environment.reset(seed=0)
+    assert np.array_equal(environment.render(), frames[0])
+
+
+def test_a_frame_keeps_its_size_and_follows_a_platform_that_leaves():
+    environment = vibrissa.gym.WhiskerEnv("disk", speed_m_s=1.0, time_limit_s=3.0, render_mode="rgb_array")
+    environment.reset(seed=0)
+    first = environment.render()
+    for _ in range(60):
+        environment.step([-1.0, 0.0, 0.0])
+    last = environment.render()
+    inside = [(frame == [0xF1, 0xF3, 0xF5]).all(axis=2).sum() for frame in (first, last)]
+    assert last.shape == first.shape and 1000 < inside[1] < 0.5 * inside[0], "the disk is smaller"
+
+
+def test_gymnasium_records_frames():
+    environment = gymnasium.make("Vibrissa-v0", time_limit_s=0.2, render_mode="rgb_array")
+    environment = gymnasium.wrappers.RenderCollection(environment)
+    follow(environment)
+    assert len(environment.render()) >= 6
+
+
+def test_an_unknown_render_mode_is_refused():
+    with pytest.raises(ValueError, match="there are 'rgb_array' and 'svg'"):
+        vibrissa.gym.WhiskerEnv(render_mode="human")

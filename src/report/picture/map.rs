@@ -48,6 +48,8 @@ pub(super) struct Map {
     pub(super) scale: f64,
     /// Height of the panel (px).
     pub(super) height: f64,
+    /// Number of poses of the platform that are drawn between the first and the last.
+    poses_between: usize,
 }
 
 impl Map {
@@ -60,8 +62,8 @@ impl Map {
         width: f64,
         (least, most): (f64, f64),
     ) -> Self {
-        let shown =
-            shown_ticks(trace).into_iter().flat_map(|tick| footprint(&scene.rig, &tick.body)).chain(path(trace));
+        let ticks = shown_ticks(trace, POSES_BETWEEN).into_iter();
+        let shown = ticks.flat_map(|tick| footprint(&scene.rig, &tick.body)).chain(path(trace));
         let shown = shown
             .fold(scene.truth.surfaces.bounding_box(), |shown, point| shown.union(&BoundingBox::around(point, point)));
         let (extent, centre) = (shown.max - shown.min, nalgebra::center(&shown.min, &shown.max));
@@ -73,6 +75,7 @@ impl Map {
             y: Scale { values: (centre.y - half.1, centre.y + half.1), positions: (top + height, top) },
             scale,
             height,
+            poses_between: POSES_BETWEEN,
         }
     }
 
@@ -84,7 +87,13 @@ impl Map {
             y: Scale { values: (centre.y - half, centre.y + half), positions: (top + side, top) },
             scale: 0.5 * side / half,
             height: side,
+            poses_between: POSES_BETWEEN,
         }
+    }
+
+    /// The same panel, on which only the first and the last pose of the platform are drawn.
+    pub(super) fn without_poses_between(self) -> Self {
+        Self { poses_between: 0, ..self }
     }
 
     /// The panel with its content.
@@ -185,7 +194,7 @@ impl Map {
     }
 
     fn platform(&self, rig: &Rig, trace: &Trace) -> Group {
-        let ticks = shown_ticks(trace);
+        let ticks = shown_ticks(trace, self.poses_between);
         let mut group = Group::new();
         for (index, tick) in ticks.iter().enumerate() {
             let (body, whiskers) = self.pose(rig, trace, tick);
@@ -286,11 +295,11 @@ fn path(trace: &Trace) -> impl Iterator<Item = Point2> {
     trace.ticks.iter().filter(|tick| has_position(tick)).map(|tick| tick.body.position)
 }
 
-/// The ticks in which the platform is drawn: the first, the last, and some at equal time intervals between.
-fn shown_ticks(trace: &Trace) -> Vec<&TickRecord> {
+/// The ticks in which the platform is drawn: the first, the last, and so many at equal time intervals between.
+fn shown_ticks(trace: &Trace, between: usize) -> Vec<&TickRecord> {
     let ticks: Vec<_> = trace.ticks.iter().filter(|tick| has_position(tick)).collect();
     let Some(last) = ticks.len().checked_sub(1) else { return ticks };
-    let count = (POSES_BETWEEN + 1).min(last.max(1));
+    let count = (between + 1).min(last.max(1));
     let mut chosen: Vec<_> = (0..=count).map(|k| last * k / count).collect();
     chosen.dedup();
     chosen.into_iter().map(|index| ticks[index]).collect()

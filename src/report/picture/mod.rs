@@ -40,6 +40,10 @@ use crate::run::{Run, Trace};
 use crate::scene::Scene;
 use crate::score::{COVERAGE_RESOLUTION, Estimate, Score, tips, traced};
 
+/// Width and height of a frame (px).
+const FRAME: (f64, f64) = (800.0, 600.0);
+/// Margin of a frame (px). It has no space for the numbers of the axes, which are too small for a video.
+const FRAME_MARGIN: f64 = 10.0;
 /// Width of the picture (px).
 const WIDTH: f64 = 1200.0;
 /// Width of the map (px).
@@ -68,6 +72,17 @@ const LINE: usize = 130;
 #[must_use]
 pub fn picture(scene: &Scene, policy: &str, run: &Run, score: &Score) -> String {
     plotted(scene, policy, run, score).svg
+}
+
+/// A frame of a video of a run of `scene`, after the last tick of `trace`: the map of a [`picture`], as a self-contained SVG of
+/// 800 x 600 px. Of the platform, only the first pose, the last one and the path are drawn.
+#[must_use]
+pub fn frame(scene: &Scene, trace: &Trace) -> String {
+    let (width, height) = (FRAME.0 - 2.0 * FRAME_MARGIN, FRAME.1 - 2.0 * FRAME_MARGIN);
+    let corner = (FRAME_MARGIN, FRAME_MARGIN);
+    let map = Map::new(scene, trace, corner, width, (height, height)).without_poses_between();
+    let tips = tips(trace, &scene.truth.surfaces, &scene.rig);
+    style::sheet(FRAME, &scene.name).add(map.draw(scene, trace, &untraced(scene, trace), &tips)).to_string()
 }
 
 /// The [`picture`] of a run, with the positions of its tip estimates and of its times.

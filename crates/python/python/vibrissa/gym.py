@@ -32,7 +32,7 @@ class WhiskerEnv(gymnasium.Env):
     It is truncated after the time limit of the scenario.
     """
 
-    metadata = {"render_modes": ["svg"], "render_fps": 30}
+    metadata = {"render_modes": ["rgb_array", "svg"], "render_fps": 30}
 
     def __init__(
         self,
@@ -54,7 +54,8 @@ class WhiskerEnv(gymnasium.Env):
         then calibrates itself, unless `uncalibrated`. `jitter` is the largest displacement of the start (m) and its largest rotation (rad).
         """
         if render_mode not in (None, *self.metadata["render_modes"]):
-            raise ValueError(f"there is no render mode {render_mode!r}; there is 'svg'")
+            known = " and ".join(repr(mode) for mode in self.metadata["render_modes"])
+            raise ValueError(f"there is no render mode {render_mode!r}; there are {known}")
         self.render_mode = render_mode
         self._scenario = scenario
         self._options = dict(world=world, mismatch=mismatch, uncalibrated=uncalibrated, jitter=jitter, time_limit_s=time_limit_s)
@@ -62,7 +63,7 @@ class WhiskerEnv(gymnasium.Env):
         self._whiskers = rig.whiskers
         self._limits = np.array([speed_m_s, speed_m_s, yaw_rate_rad_s])
         self._policy = _recording(rig)
-        self._trial = self._episode = None
+        self._trial = self._episode = self._result = self._frame = None
         self.metadata = {**self.metadata, "render_fps": rig.control_rate_hz}
         count = len(rig.whiskers)
         box = gymnasium.spaces.Box
@@ -84,7 +85,7 @@ class WhiskerEnv(gymnasium.Env):
         if self._options["mismatch"] is not None:
             self._options["mismatch_seed"] = mismatch
         self._trial = Trial(self._scene(scene), self._policy, seed=noise, unused_seeds=True, **self._options)
-        self._episode, self._result = self._trial.begin(), None
+        self._episode, self._result, self._frame = self._trial.begin(), None, None
         seen = self._episode.step(0.0, 0.0, 0.0)
         return self._observation(seen), self._info(seen)
 
@@ -100,13 +101,22 @@ class WhiskerEnv(gymnasium.Env):
         truncated = seen.outcome in ("timeout", "diverged")
         info = self._info(seen)
         if terminated or truncated:
+            self._frame = self._episode.frame() if self.render_mode == "rgb_array" else None
             self._result = self._episode.result()
             info["figures"] = self._result.figures
             info["outcome"] = self._result.outcome
         return self._observation(seen), reward, terminated, truncated, info
 
     def render(self):
-        """The picture of the finished episode, as SVG. An episode that goes on has none."""
+        """What the render mode asks for.
+
+        `rgb_array`: the scene from above after the newest step, an array of 600 x 800 x 3 numbers (uint8).
+        `svg`: the picture of the finished episode. An episode that goes on has none.
+        """
+        if self.render_mode == "rgb_array":
+            if self._episode is None:
+                raise gymnasium.error.ResetNeeded("call `reset` before `render`")
+            return self._episode.frame() if self._frame is None else self._frame.copy()
         return self._result.picture() if self.render_mode == "svg" and self._result else None
 
     @property
