@@ -1,13 +1,15 @@
 //! The control loop of a machine.
 
 use numpy::PyArray1;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use vibrissa_runtime::geometry::Pose;
+use pyo3::types::{PyDict, PyType};
+use vibrissa_runtime::geometry::{Pose, Vector2};
 use vibrissa_runtime::machine::{LoggedMessage, Senses, Status, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::signal;
 
 use crate::arrays::{Numbers, list, table};
+use crate::pickle::{Reduced, hash_of, restored_from};
 use crate::samples::GivenSamples;
 
 /// Distance (m) of a tip from the first ones, and time (s) since the first one, for a closed loop. Scenarios mostly have the same.
@@ -24,7 +26,8 @@ pub(crate) struct Control {
 }
 
 /// A command to the platform, valid until the next tick.
-#[pyclass(frozen, module = "vibrissa")]
+#[pyclass(frozen, eq, module = "vibrissa")]
+#[derive(PartialEq)]
 pub(crate) struct Command(signal::Command);
 
 impl Control {
@@ -123,6 +126,14 @@ impl Control {
         perceived.set_item("loop_closed", list(py, fitted.iter().map(closed).collect()))?;
         Ok(perceived)
     }
+
+    #[staticmethod]
+    fn __reduce__() -> PyResult<()> {
+        Err(PyTypeError::new_err(
+            "a `Control` cannot be pickled, because it is in the middle of a run; pickle its `Machine` and its `Rig`, and call \
+             `machine.start(rig)` in the other process",
+        ))
+    }
 }
 
 #[pymethods]
@@ -143,6 +154,22 @@ impl Command {
     fn velocity_body_m_s(&self, heading_rad: f64) -> (f64, f64) {
         let velocity = Pose { heading: heading_rad, ..Pose::default() }.vector_from_world(self.0.velocity_world);
         (velocity.x, velocity.y)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let signal::Command { velocity_world, yaw_rate } = self.0;
+        // 0.0 makes both zeros, which are equal, the same.
+        hash_of(&[velocity_world.x, velocity_world.y, yaw_rate].map(|number| (number + 0.0).to_bits()))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let signal::Command { velocity_world, yaw_rate } = slf.get().0;
+        restored_from(slf, (velocity_world.x, velocity_world.y, yaw_rate))
+    }
+
+    #[classmethod]
+    fn _restore(_class: &Bound<'_, PyType>, x: f64, y: f64, yaw_rate: f64) -> Self {
+        Self(signal::Command { velocity_world: Vector2::new(x, y), yaw_rate })
     }
 
     fn __repr__(&self) -> String {

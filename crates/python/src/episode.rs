@@ -3,16 +3,17 @@
 use std::sync::{Mutex, PoisonError};
 
 use numpy::PyArray3;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use vibrissa::report::frame;
-use vibrissa::run::{Ending, Step, SteppedRun, TickRecord};
+use vibrissa::run::{Ending, Step, SteppedRun};
 use vibrissa::trial::{ExecuteError, Trial};
 use vibrissa::world::World;
 use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::signal::Command;
 
-use crate::arrays::{list, table};
 use crate::error::error;
+use crate::observation::Observation;
 use crate::raster::Pixels;
 use crate::result::Result;
 use crate::traced_outline::TracedOutline;
@@ -28,25 +29,6 @@ struct Inner {
     run: Option<SteppedRun>,
     traced: TracedOutline,
     ending: Option<Ending>,
-}
-
-/// What an episode shows after a step.
-#[pyclass(frozen, module = "vibrissa")]
-pub(crate) struct Observation {
-    tick: TickRecord,
-    width: usize,
-    /// Length of the outlines that this step has traced for the first time.
-    #[pyo3(get)]
-    traced_m: f64,
-    /// True if the episode ended because the body was driven into something.
-    #[pyo3(get)]
-    crashed: bool,
-    /// Outcome of the run, after its last step.
-    #[pyo3(get)]
-    outcome: Option<&'static str>,
-    /// The reason of the outcome.
-    #[pyo3(get)]
-    reason: Option<String>,
 }
 
 impl Episode {
@@ -84,17 +66,10 @@ impl Inner {
         if let Step::Ended(ending) = run.step(self.world.as_mut(), &mut ()) {
             self.ending = Some(ending);
         }
-        let ticks = &run.trace().ticks;
-        let newest = ticks.last().ok_or_else(|| error("the simulation failed at its first step"))?;
-        let traced_m = if ticks.len() > before { self.traced.add(before, newest) } else { 0.0 };
-        Ok(Observation {
-            tick: *newest,
-            width: run.trace().whiskers.len(),
-            traced_m,
-            crashed: run.trace().crashed,
-            outcome: self.ending.as_ref().map(|ending| ending.outcome.name()),
-            reason: self.ending.as_ref().and_then(|ending| ending.reason.clone()),
-        })
+        let trace = run.trace();
+        let newest = trace.ticks.last().ok_or_else(|| error("the simulation failed at its first step"))?;
+        let traced_m = if trace.ticks.len() > before { self.traced.add(before, newest) } else { 0.0 };
+        Ok(Observation::new(trace, newest, traced_m, self.ending.as_ref()))
     }
 }
 
@@ -130,57 +105,12 @@ impl Episode {
         });
         pixels?.array(py)
     }
-}
 
-#[pymethods]
-impl Observation {
-    /// Time since the start of the episode.
-    #[getter]
-    fn time_s(&self) -> f64 {
-        self.tick.time
-    }
-
-    /// Position of the platform's centre of mass in the world frame.
-    #[getter]
-    fn position_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        list(py, vec![self.tick.body.position.x, self.tick.body.position.y])
-    }
-
-    /// Heading of the platform.
-    #[getter]
-    fn heading_rad(&self) -> f64 {
-        self.tick.body.heading
-    }
-
-    /// Filtered base angles of the whiskers.
-    #[getter]
-    fn deflection_rad<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        list(py, self.tick.deflections[..self.width].to_vec())
-    }
-
-    /// True for each whisker that touches.
-    #[getter]
-    fn touching<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        list(py, self.tick.contacts[..self.width].iter().map(|contact| contact.is_touching).collect())
-    }
-
-    /// Estimated tips of the whiskers in the frame of the body, forward and to the left. NaN if unknown.
-    #[getter]
-    fn tip_body_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let body = &self.tick.body;
-        let tips = self.tick.contacts[..self.width].iter().flat_map(|contact| match contact.tip_world {
-            Some(tip) => {
-                let tip = body.vector_from_world(tip - body.position);
-                [tip.x, tip.y]
-            }
-            None => [f64::NAN; 2],
-        });
-        table(py, tips.collect(), 2)
-    }
-
-    /// True if the platform's body touched something since the last step.
-    #[getter]
-    fn body_touches(&self) -> bool {
-        self.tick.body_touches
+    #[staticmethod]
+    fn __reduce__() -> PyResult<()> {
+        Err(PyTypeError::new_err(
+            "an `Episode` cannot be pickled, because it has a simulation that goes on; pickle its `Trial` and call `trial.begin()` in \
+             the other process, or pickle its `Result` at the end",
+        ))
     }
 }

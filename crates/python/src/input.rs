@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyType};
 use vibrissa::built_in::{POLICIES, SCENARIOS, TextFile};
 use vibrissa::diagnostic::Source;
 use vibrissa::request::{Input, PolicyInput};
@@ -13,7 +13,8 @@ use crate::error::error;
 use crate::machine::Machine;
 
 /// The text of a scenario, a policy or a mismatch. Messages show its name. Paths in the text are relative to the folder of the name.
-#[pyclass(frozen, get_all, module = "vibrissa")]
+#[pyclass(frozen, get_all, eq, hash, module = "vibrissa")]
+#[derive(PartialEq, Eq, Hash)]
 pub(crate) struct Text {
     text: String,
     name: String,
@@ -25,6 +26,11 @@ impl Text {
     #[pyo3(signature = (text, name = "text".to_owned()))]
     fn new(text: String, name: String) -> Self {
         Self { text, name }
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> (Py<PyType>, (String, String)) {
+        let Self { text, name } = slf.get();
+        (slf.get_type().unbind(), (text.clone(), name.clone()))
     }
 
     fn __repr__(&self) -> String {
@@ -51,6 +57,27 @@ pub(crate) enum GivenPolicy<'py> {
     Text(Bound<'py, Text>),
     Machine(Bound<'py, Machine>),
     Path(PathBuf),
+}
+
+impl<'py> GivenInput<'py> {
+    /// What Python gave. A path stays as it is written, because `./disk` is a file and `disk` is a built-in scenario.
+    pub(crate) fn to_python(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match self {
+            Self::Text(text) => Ok(text.clone().into_any()),
+            Self::Path(path) => Ok(path.as_os_str().into_pyobject(py)?.into_any()),
+        }
+    }
+}
+
+impl<'py> GivenPolicy<'py> {
+    /// What Python gave.
+    pub(crate) fn to_python(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match self {
+            Self::Text(text) => Ok(text.clone().into_any()),
+            Self::Machine(machine) => Ok(machine.clone().into_any()),
+            Self::Path(path) => Ok(path.as_os_str().into_pyobject(py)?.into_any()),
+        }
+    }
 }
 
 impl From<GivenInput<'_>> for Input {

@@ -7,6 +7,8 @@ mod episode;
 mod error;
 mod input;
 mod machine;
+mod observation;
+mod pickle;
 mod raster;
 mod result;
 mod rig;
@@ -21,13 +23,15 @@ mod _native {
     #[pymodule_export]
     use super::control::{Command, Control};
     #[pymodule_export]
-    use super::episode::{Episode, Observation};
+    use super::episode::Episode;
     #[pymodule_export]
     use super::error::Error;
     #[pymodule_export]
     use super::input::{Text, policies, scenarios};
     #[pymodule_export]
     use super::machine::{Machine, Parameter, compile};
+    #[pymodule_export]
+    use super::observation::Observation;
     #[pymodule_export]
     use super::result::Result;
     #[pymodule_export]

@@ -12,10 +12,12 @@ use vibrissa_runtime::machine::Artifact;
 use crate::control::Control;
 use crate::error::error;
 use crate::input::{GivenPolicy, settings};
+use crate::pickle::{Reduced, hash_of, restored_from};
 use crate::rig::Rig;
 
 /// A compiled policy.
-#[pyclass(frozen, module = "vibrissa")]
+#[pyclass(frozen, eq, module = "vibrissa")]
+#[derive(PartialEq)]
 pub(crate) struct Machine {
     artifact: Artifact,
     /// Warnings about probable mistakes in the text of the policy, as the program prints them.
@@ -24,7 +26,8 @@ pub(crate) struct Machine {
 }
 
 /// A parameter of a machine. Values are texts with a unit, or names of choices.
-#[pyclass(frozen, get_all, module = "vibrissa")]
+#[pyclass(frozen, get_all, eq, hash, module = "vibrissa")]
+#[derive(PartialEq, Eq, Hash)]
 pub(crate) struct Parameter {
     name: String,
     description: String,
@@ -129,6 +132,20 @@ impl Machine {
         program.parameters.iter().zip(&program.initial_registers).map(parameter).collect()
     }
 
+    fn __hash__(&self) -> u64 {
+        hash_of(&self.name())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let machine = slf.get();
+        restored_from(slf, (machine.to_bytes(slf.py())?, &machine.warnings))
+    }
+
+    #[classmethod]
+    fn _restore(_class: &Bound<'_, PyType>, bytes: &[u8], warnings: String) -> PyResult<Self> {
+        Ok(Self { artifact: Artifact::from_bytes(bytes).map_err(error)?, warnings })
+    }
+
     fn __repr__(&self) -> String {
         format!("Machine(name={:?})", self.name())
     }
@@ -136,6 +153,24 @@ impl Machine {
 
 #[pymethods]
 impl Parameter {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let Self { name, description, value, default, range, choices } = slf.get();
+        restored_from(slf, (name, description, value, default, range, choices))
+    }
+
+    #[classmethod]
+    fn _restore(
+        _class: &Bound<'_, PyType>,
+        name: String,
+        description: String,
+        value: String,
+        default: String,
+        range: Option<(String, String)>,
+        choices: Vec<String>,
+    ) -> Self {
+        Self { name, description, value, default, range, choices }
+    }
+
     fn __repr__(&self) -> String {
         format!("Parameter(name={:?}, value={:?})", self.name, self.value)
     }

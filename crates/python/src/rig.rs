@@ -7,6 +7,7 @@ use vibrissa::request::{self, Input};
 
 use crate::error::error;
 use crate::input::GivenInput;
+use crate::pickle::{Reduced, hash_of, restored_from};
 
 /// A platform with whiskers, as control assumes it: that of a scenario, or the reference rig.
 #[pyclass(frozen, eq, module = "vibrissa")]
@@ -84,6 +85,19 @@ impl Rig {
     #[getter]
     fn yaw_servo_s(&self) -> f64 {
         self.0.platform.servos().z
+    }
+
+    fn __hash__(&self) -> u64 {
+        hash_of(&self.whiskers())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        restored_from(slf, (serde_json::to_string(&slf.get().0).map_err(error)?,))
+    }
+
+    #[classmethod]
+    fn _restore(_class: &Bound<'_, PyType>, json: &str) -> PyResult<Self> {
+        Ok(Self(serde_json::from_str(json).map_err(error)?))
     }
 
     fn __repr__(&self) -> String {

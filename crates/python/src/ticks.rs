@@ -51,7 +51,7 @@ pub(crate) fn plots<'py>(py: Python<'py>, trace: &Trace) -> PyResult<Bound<'py, 
     Ok(plots)
 }
 
-/// The messages of a run: time, name of the state, text.
+/// The messages of a run: time (s), name of the state, text.
 pub(crate) fn messages(trace: &Trace) -> Vec<(f64, Option<String>, String)> {
     let message = |message: &vibrissa::run::MessageRecord| {
         let time = trace.ticks.get(message.tick).map_or(f64::NAN, |tick| tick.time);

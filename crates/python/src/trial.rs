@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyType};
 use vibrissa::request::TrialRequest;
 use vibrissa::run::{Trace, Watcher};
 use vibrissa::scene::{Jitter, WorldKind};
@@ -17,16 +17,25 @@ use crate::episode::Episode;
 use crate::error::error;
 use crate::input::{GivenInput, GivenPolicy, settings};
 use crate::machine::warnings;
+use crate::pickle::{Reduced, restored_from};
 use crate::result::Result;
 use crate::rig::Rig;
 
 /// A policy in a scene and a world, ready to run.
 #[pyclass(frozen, module = "vibrissa")]
 pub(crate) struct Trial {
-    trial: vibrissa::trial::Trial,
+    inner: vibrissa::trial::Trial,
     /// Warnings about probable mistakes in the text of the policy, as the program prints them.
     #[pyo3(get)]
     warnings: String,
+    arguments: Arguments,
+}
+
+/// The arguments of a trial, from which another process makes it again.
+struct Arguments {
+    scenario: Py<PyAny>,
+    policy: Option<Py<PyAny>>,
+    options: Py<PyDict>,
 }
 
 #[pymethods]
@@ -52,6 +61,23 @@ impl Trial {
         time_limit_s: Option<f64>,
         unused_seeds: bool,
     ) -> PyResult<Self> {
+        let options = PyDict::new(py);
+        // The caller may change his dictionary.
+        options.set_item("set", set.map(PyDictMethods::copy).transpose()?)?;
+        options.set_item("world", world)?;
+        options.set_item("seed", seed)?;
+        options.set_item("mismatch", mismatch.as_ref().map(|mismatch| mismatch.to_python(py)).transpose()?)?;
+        options.set_item("mismatch_seed", mismatch_seed)?;
+        options.set_item("uncalibrated", uncalibrated)?;
+        options.set_item("prune", prune)?;
+        options.set_item("jitter", jitter)?;
+        options.set_item("time_limit_s", time_limit_s)?;
+        options.set_item("unused_seeds", unused_seeds)?;
+        let arguments = Arguments {
+            scenario: scenario.to_python(py)?.unbind(),
+            policy: policy.as_ref().map(|policy| policy.to_python(py)).transpose()?.map(Bound::unbind),
+            options: options.unbind(),
+        };
         let request = TrialRequest {
             policy: policy.map(Into::into),
             settings: settings(set)?,
@@ -79,67 +105,67 @@ impl Trial {
             }
             trial.scene.stop.time = limit;
         }
-        Ok(Self { trial, warnings: warnings(&prepared.policy) })
+        Ok(Self { inner: trial, warnings: warnings(&prepared.policy), arguments })
     }
 
     /// Runs and scores the trial. Other threads of Python go on meanwhile.
     #[pyo3(signature = (*, samples = false))]
     fn run(&self, py: Python<'_>, samples: bool) -> PyResult<Result> {
         let mut watch = Watch { samples: samples.then(Vec::new), signal: None };
-        let run = py.detach(|| self.trial.run_watched(&mut watch));
+        let run = py.detach(|| self.inner.run_watched(&mut watch));
         match (run, watch.signal) {
             (Err(ExecuteError::Interrupted), Some(signal)) => Err(signal),
-            (Err(cause), _) => Err(error(format_args!("{}: {cause}", self.trial.inputs.scenario.display()))),
-            (Ok(result), _) => Result::new(py, self.trial.clone(), result, watch.samples),
+            (Err(cause), _) => Err(error(format_args!("{}: {cause}", self.inner.inputs.scenario.display()))),
+            (Ok(result), _) => Result::new(py, self.inner.clone(), result, watch.samples),
         }
     }
 
     /// Begins an episode, in which the caller steers the platform instead of the policy.
     fn begin(&self, py: Python<'_>) -> PyResult<Episode> {
-        let begun = py.detach(|| Episode::begin(&self.trial));
-        begun.map_err(|cause| error(format_args!("{}: {cause}", self.trial.inputs.scenario.display())))
+        let begun = py.detach(|| Episode::begin(&self.inner));
+        begun.map_err(|cause| error(format_args!("{}: {cause}", self.inner.inputs.scenario.display())))
     }
 
     /// Name of the scenario.
     #[getter]
     fn scenario(&self) -> &str {
-        &self.trial.scene.name
+        &self.inner.scene.name
     }
 
     /// Name of the policy.
     #[getter]
     fn policy(&self) -> &str {
-        &self.trial.program.name
+        &self.inner.program.name
     }
 
     /// Name of the simulator.
     #[getter]
     fn world(&self) -> &'static str {
-        self.trial.world.kind.name()
+        self.inner.world.kind.name()
     }
 
     /// Seed of the sensor noise.
     #[getter]
     fn seed(&self) -> u64 {
-        self.trial.seed
+        self.inner.seed
     }
 
     /// Simulated time after which the run ends.
     #[getter]
     fn time_limit_s(&self) -> f64 {
-        self.trial.scene.stop.time
+        self.inner.scene.stop.time
     }
 
     /// The rig that control assumes.
     #[getter]
     fn rig(&self) -> Rig {
-        Rig(self.trial.assumed_rig.clone())
+        Rig(self.inner.assumed_rig.clone())
     }
 
     /// Pose of the platform at the start: x (m), y (m), heading (rad).
     #[getter]
     fn start(&self) -> (f64, f64, f64) {
-        let start = &self.trial.scene.start;
+        let start = &self.inner.scene.start;
         (start.position.x, start.position.y, start.heading)
     }
 
@@ -159,7 +185,33 @@ impl Trial {
             let point = |index: usize| contour.point_at(contour.length() * index as f64 / count as f64);
             table(py, (0..=count).map(point).flat_map(|point| [point.x, point.y]).collect(), 2)
         };
-        self.trial.scene.truth.reference.contours().map(outline).collect()
+        self.inner.scene.truth.reference.contours().map(outline).collect()
+    }
+
+    /// The arguments, and hashes of what they name.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let Self { arguments: Arguments { scenario, policy, options }, inner, .. } = slf.get();
+        let hashes = (&inner.inputs.scenario_hash, &inner.inputs.policy_hash);
+        restored_from(slf, (scenario, policy, options, hashes))
+    }
+
+    #[classmethod]
+    fn _restore(
+        class: &Bound<'_, PyType>,
+        scenario: Bound<'_, PyAny>,
+        policy: Bound<'_, PyAny>,
+        options: Bound<'_, PyDict>,
+        hashes: (String, String),
+    ) -> PyResult<Py<Self>> {
+        let made = class.call((scenario, policy), Some(&options))?.cast_into::<Self>()?;
+        let inputs = &made.get().inner.inputs;
+        if hashes == (inputs.scenario_hash.clone(), inputs.policy_hash.clone()) {
+            Ok(made.unbind())
+        } else {
+            Err(error(
+                "a file of the trial has changed since the trial was pickled; make the trial again and pickle that one",
+            ))
+        }
     }
 
     fn __repr__(&self) -> String {

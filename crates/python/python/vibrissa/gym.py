@@ -124,6 +124,14 @@ class WhiskerEnv(gymnasium.Env):
         """The `Result` of the finished episode. `None` while it goes on."""
         return self._result
 
+    def __getstate__(self):
+        if self._episode is not None:
+            raise TypeError(
+                "an environment with an episode cannot be pickled, because its simulation goes on; make an environment in the "
+                "other process and reset it there with the same seed, or pickle `environment.unwrapped.result` at the end"
+            )
+        return self.__dict__
+
     def _scene(self, seed):
         return self._scenario(seed) if callable(self._scenario) else self._scenario
 
