@@ -192,8 +192,8 @@ impl GuardRecord {
         }
         match (self.elapsed_s, self.needed_s) {
             (Some(elapsed), Some(needed)) if elapsed < needed - TIME_SLACK => {
-                let [rest, needed] = [needed - elapsed, needed].map(|time| format_si(time, Dimension::TIME));
-                format!("{rest} of {needed}")
+                let [elapsed, needed] = [elapsed, needed].map(|time| format_si(time, Dimension::TIME));
+                format!("{elapsed} of {needed} elapsed")
             }
             _ => String::new(),
         }

@@ -1230,7 +1230,7 @@
       return info.parts.length > 1 ? `${text2}: ${amount}` : amount;
     });
     if (lacks.length === 0 && needed !== null && (elapsed ?? 0) < needed) {
-      return `${digits(elapsed ?? 0)} s of ${digits(needed)} s`;
+      return `${quantity(elapsed ?? 0, "s")} of ${quantity(needed, "s")} elapsed`;
     }
     return met ? "holds" : lacks.join("\n");
   }

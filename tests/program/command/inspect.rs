@@ -65,3 +65,21 @@ fn a_breakpoint_ends_no_run_that_is_watched_or_recorded() {
         assert!(stderr(&output).contains("add --live"), "{}", stderr(&output));
     }
 }
+
+#[test]
+fn a_guard_with_a_time_shows_how_much_of_it_has_elapsed() {
+    let folder = directory("elapsed");
+    let steer = "steer body along direction(body.yaw) at 10 mm/s turning 0 deg/s";
+    let policy = format!(
+        "machine late\nwhisker r0\ninitial Go\nstate Go {{\n  {steer}\n  after 15 s -> Late\n  \
+         when time > 1.5 s for 5 s -> Late\n  when time > 60 s for 1 s -> Late\n}}\nstate Late {{ stop }}\n"
+    );
+    let path = folder.join("late.fsm").display().to_string();
+    std::fs::write(&path, policy).unwrap();
+    let arguments = [&["run"], &BOX[..], &[&path, "--break", "time > 2 s"]].concat();
+    let shown = stdout(&vibrissa(&arguments));
+    // Each line has the time that has elapsed since the entry of the state, or since the condition holds.
+    for missing in ["2 s of 15 s elapsed", "500 ms of 5 s elapsed", "`time > 60 s` by 57.9667 s"] {
+        assert!(shown.contains(missing), "{missing}: {shown}");
+    }
+}

@@ -2,7 +2,7 @@ import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import { svg, set } from "../shared/svg.ts";
 import type { GuardFrame, GuardInfo } from "./protocol.ts";
-import { digits, quantity } from "./quantity.ts";
+import { quantity } from "./quantity.ts";
 import type { Run } from "./run.ts";
 import type { Actions, Panel, View } from "./view.ts";
 
@@ -92,7 +92,7 @@ function describe(info: GuardInfo, { met, margins, missing, elapsed, needed }: G
     return info.parts.length > 1 ? `${text}: ${amount}` : amount;
   });
   if (lacks.length === 0 && needed !== null && (elapsed ?? 0) < needed) {
-    return `${digits(elapsed ?? 0)} s of ${digits(needed)} s`;
+    return `${quantity(elapsed ?? 0, "s")} of ${quantity(needed, "s")} elapsed`;
   }
   return met ? "holds" : lacks.join("\n");
 }
