@@ -1,7 +1,5 @@
 //! Ticks as pages show them.
 
-use std::time::{Duration, Instant};
-
 use vibrissa_runtime::rig::Rig;
 
 use super::guards::GuardNumbers;
@@ -12,12 +10,8 @@ use crate::geometry::{Point2, unit};
 use crate::recording::shaft_points;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Truth;
-use crate::score::{Estimate, coverage};
+use crate::score::CoverageTracker;
 
-/// Coverage is computed at most this often.
-const COVERAGE_PERIOD: Duration = Duration::from_secs(1);
-/// Its computation takes at most one in this many parts of the time.
-const COVERAGE_SHARE: u32 = 20;
 /// Shown coordinates are multiples of this (m).
 const RESOLUTION: f64 = 1e-6;
 
@@ -31,15 +25,15 @@ pub(super) struct Frames {
     /// Sum and number of the errors, and of the standard deviations.
     errors: (f64, usize),
     spreads: (f64, usize),
-    coverage: Option<f64>,
-    next_coverage: Instant,
+    /// The coverage, if the scene is known.
+    coverage: Option<CoverageTracker>,
 }
 
 impl Frames {
     /// The frames of a run of `rig`, whose trace has the whiskers `bound`. `truth` is the exact scene, if it is known.
     pub(super) fn new(rig: Rig, bound: Vec<usize>, truth: Option<Truth>) -> Self {
-        let next_coverage = Instant::now();
-        Self { rig, bound, truth, errors: (0.0, 0), spreads: (0.0, 0), coverage: None, next_coverage }
+        let coverage = truth.as_ref().map(|truth| CoverageTracker::new(truth.reference.clone()));
+        Self { rig, bound, truth, errors: (0.0, 0), spreads: (0.0, 0), coverage }
     }
 
     /// The frame of the newest tick of a trace. `None` if it has none.
@@ -51,8 +45,7 @@ impl Frames {
     ) -> Option<Frame> {
         let tick = trace.ticks.last()?;
         let index = trace.ticks.len() - 1;
-        let contour = self.contour(tick);
-        self.update_coverage(trace);
+        let contour = self.contour(index, tick);
         let messages = trace.messages.iter().rev().take_while(|message| message.tick == index);
         let mut messages: Vec<String> = messages.map(|message| message.message.text.to_string()).collect();
         messages.reverse();
@@ -74,20 +67,14 @@ impl Frames {
     }
 
     /// The figures of the contour until now.
-    fn metrics(&self) -> Metrics {
+    pub(super) fn metrics(&self) -> Metrics {
         let mean = |(sum, count): (f64, usize)| (count > 0).then(|| sum / count as f64);
-        Metrics { error: mean(self.errors), coverage: self.coverage, spread: mean(self.spreads) }
+        let coverage = self.coverage.as_ref().map(CoverageTracker::coverage);
+        Metrics { error: mean(self.errors), coverage, spread: mean(self.spreads) }
     }
 
-    /// The figures of a whole run.
-    pub(super) fn final_metrics(&mut self, trace: &Trace) -> Metrics {
-        self.next_coverage = Instant::now();
-        self.update_coverage(trace);
-        self.metrics()
-    }
-
-    /// The recorded tips of a tick.
-    fn contour(&mut self, tick: &TickRecord) -> Vec<ContourFrame> {
+    /// The recorded tips of the tick with this index.
+    fn contour(&mut self, index: usize, tick: &TickRecord) -> Vec<ContourFrame> {
         let mut contour = Vec::new();
         for whisker in 0..self.bound.len() {
             let Some(tip) = tick.tips.get(whisker).copied().flatten() else { continue };
@@ -97,6 +84,9 @@ impl Frames {
                 if let Some(value) = value {
                     *sum = (sum.0 + value, sum.1 + 1);
                 }
+            }
+            if let Some(coverage) = &mut self.coverage {
+                coverage.add(whisker, index, tip);
             }
             contour.push(ContourFrame { whisker, point: point(tip), spread, error });
         }
@@ -122,17 +112,6 @@ impl Frames {
             })
         };
         self.bound.iter().enumerate().filter_map(whisker).collect()
-    }
-
-    /// Computes the coverage about once a second. It takes longer the longer the contour is, and never much of the time.
-    fn update_coverage(&mut self, trace: &Trace) {
-        let Some(truth) = &self.truth else { return };
-        let before = Instant::now();
-        if before < self.next_coverage {
-            return;
-        }
-        self.coverage = Some(coverage(&Estimate::new(trace), &truth.reference));
-        self.next_coverage = before + COVERAGE_PERIOD.max(COVERAGE_SHARE * before.elapsed());
     }
 }
 

@@ -306,7 +306,7 @@ pub(super) struct ContourFrame {
 pub(super) struct Metrics {
     /// Mean distance of the recorded tips from the nearest outline (m).
     pub(super) error: Option<f64>,
-    /// Share of the reference that was traced, 0 to 1. It is computed about once a second.
+    /// Share of the reference that was traced, 0 to 1.
     pub(super) coverage: Option<f64>,
     /// Mean standard deviation of the recorded tips (m).
     pub(super) spread: Option<f64>,

@@ -82,18 +82,16 @@ impl<'i> LiveWatcher<'i> {
     }
 
     /// Tells the page the outcome of the run, and what is missing if it ended.
-    pub fn finish(mut self, result: &TrialResult) {
-        let metrics = self.frames.final_metrics(&result.run.trace);
+    pub fn finish(self, result: &TrialResult) {
         let missing = result.violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
         let ending = result.ending();
         let reason = if ending == Ending::Ended { Some(missing) } else { result.run.reason.clone() };
-        self.hub.finish(ending.name(), reason, metrics);
+        self.hub.finish(ending.name(), reason, self.frames.metrics());
     }
 
     /// Tells the page how a run ended whose scenario is not known.
-    pub fn finish_unjudged(mut self, run: &Run) {
-        let metrics = self.frames.final_metrics(&run.trace);
-        self.hub.finish(run.outcome.name(), run.reason.clone(), metrics);
+    pub fn finish_unjudged(self, run: &Run) {
+        self.hub.finish(run.outcome.name(), run.reason.clone(), self.frames.metrics());
     }
 
     /// Takes new breakpoints over. The control loop that explains guards is then made again, and executes all ticks until now.

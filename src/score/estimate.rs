@@ -55,9 +55,8 @@ impl Estimate {
     /// The distance (m) of a point from the nearest stroke, in logarithmic time. `None` without strokes.
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
-        let query = point.into();
-        let distance = |line: &Line<[f64; 2]>| (point - Point2::from(line.nearest_point(&query))).norm();
-        (self.lines.size() > 0).then(|| min_distance(&self.lines, point, f64::INFINITY, distance))
+        (self.lines.size() > 0)
+            .then(|| min_distance(&self.lines, point, f64::INFINITY, |line| distance_from(line, point)))
     }
 }
 
@@ -65,15 +64,23 @@ fn strokes(tips: impl Iterator<Item = (usize, Point2)>) -> Vec<Vec<Point2>> {
     let mut strokes: Vec<Vec<Point2>> = Vec::new();
     let mut before: Option<(usize, Point2)> = None;
     for (tick, tip) in tips {
-        let goes_on = before
-            .is_some_and(|(last_tick, last_tip)| tick - last_tick <= MAX_BREAK && (tip - last_tip).norm() <= MAX_STEP);
         match strokes.last_mut() {
-            Some(stroke) if goes_on => stroke.push(tip),
+            Some(stroke) if before.is_some_and(|before| is_joined(before, (tick, tip))) => stroke.push(tip),
             _ => strokes.push(vec![tip]),
         }
         before = Some((tick, tip));
     }
     strokes
+}
+
+/// True if a tip of a whisker is joined to the next one. Each has the index of its tick.
+pub(super) fn is_joined((last_tick, last_tip): (usize, Point2), (tick, tip): (usize, Point2)) -> bool {
+    tick - last_tick <= MAX_BREAK && (tip - last_tip).norm() <= MAX_STEP
+}
+
+/// The distance (m) of a point from a line segment, which may have the length 0.
+pub(super) fn distance_from(line: &Line<[f64; 2]>, point: Point2) -> f64 {
+    (point - Point2::from(line.nearest_point(&point.into()))).norm()
 }
 
 /// The line segments of a stroke. A single tip is a segment of length 0.

@@ -3,5 +3,6 @@
 mod access;
 mod counterfactual;
 mod foxglove;
+mod frame;
 mod run;
 mod session;

@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use vibrissa::geometry::{Contour, ContourSet, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
 use vibrissa::scene::{Metric, Truth};
 use vibrissa::score::{
-    COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, Estimate, HAUSDORFF_TOLERANCE, MAX_STEP, Score, coverage, object_coverage,
-    outline_coverages,
+    COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, CoverageTracker, Estimate, HAUSDORFF_TOLERANCE, MAX_STEP, Score, coverage,
+    object_coverage, outline_coverages,
 };
 use vibrissa_runtime::rig::Rig;
 
@@ -123,6 +123,28 @@ proptest! {
     }
 
     #[test]
+    fn the_coverage_while_a_run_goes_on_is_that_of_its_tips_until_then(
+        first in gappy_tips(), second in gappy_tips(), radius in 0.04..0.06_f64,
+    ) {
+        let there = Pose { position: Point2::new(radius, 0.0), heading: 1.0 };
+        let reference = ContourSet::new([disk(radius), disk(0.02).transformed(&there)]).unwrap();
+        let mut tracker = CoverageTracker::new(reference.clone());
+        let whiskers = [first, second];
+        for tick in 0..60 {
+            for (whisker, tips) in whiskers.iter().enumerate() {
+                if let Some(tip) = tips[tick] {
+                    tracker.add(whisker, tick, tip);
+                }
+            }
+            let until = whiskers.each_ref().map(|tips| tips[..=tick].to_vec());
+            let whole = coverage(&Estimate::new(&run_with(&until).trace), &reference);
+            // Each tip adds at most two ends of intervals to each contour.
+            let bound = 8.0 * (tick + 1) as f64 * COVERAGE_RESOLUTION / reference.length();
+            prop_assert!((tracker.coverage() - whole).abs() <= bound, "tick {tick}: {} and {whole}", tracker.coverage());
+        }
+    }
+
+    #[test]
     fn no_trace_is_too_strange(
         tips in prop::collection::vec(prop::option::of((any::<f64>(), any::<f64>())), 0..40),
         near in prop::collection::vec(prop::option::of((-0.1..0.1_f64, prop::num::f64::ANY)), 0..40),
@@ -141,6 +163,12 @@ fn noisy_tips(radius: f64) -> impl Strategy<Value = Vec<Option<Point2>>> {
         let place = |(k, offset)| Some(Point2::from((radius + offset) * unit(k as f64 * TAU / 60.0)));
         offsets.into_iter().enumerate().map(place).collect()
     })
+}
+
+/// Tips about a circle of 5 cm like [`noisy_tips`]. Some ticks have none, and some tips are no numbers or far away.
+fn gappy_tips() -> impl Strategy<Value = Vec<Option<Point2>>> {
+    let tip = |tip| prop_oneof![5 => Just(tip), 3 => Just(None), 1 => Just(Some(Point2::new(f64::NAN, 0.0)))];
+    noisy_tips(0.05).prop_flat_map(move |tips| tips.into_iter().map(tip).collect::<Vec<_>>())
 }
 
 #[test]
