@@ -205,9 +205,11 @@ impl Hub {
     }
 
     /// Waits after a tick until the next one may begin: until `time` (s) is due, and until no page has paused the run. Only a pause
-    /// that a user asked for and the pace make the loop wait. `is_over` ends the wait and the run.
-    pub(super) fn wait(&self, pace: &mut Pace, time: f64, mut is_over: impl FnMut() -> bool) -> ControlFlow<()> {
+    /// that a user asked for and the pace make the loop wait. `is_over` ends the wait and the run. The result is true if there was a
+    /// pause.
+    pub(super) fn wait(&self, pace: &mut Pace, time: f64, mut is_over: impl FnMut() -> bool) -> ControlFlow<(), bool> {
         let mut shared = self.shared();
+        let mut has_paused = false;
         if let Mode::Stepping(ticks) = shared.mode {
             let is_last = ticks <= 1;
             shared.mode = if is_last { Mode::Paused } else { Mode::Stepping(ticks - 1) };
@@ -220,13 +222,13 @@ impl Hub {
             let rest = match shared.mode {
                 Mode::Running => match pace.due(time).and_then(|due| due.checked_duration_since(Instant::now())) {
                     Some(rest) if !rest.is_zero() => rest.min(LOOK),
-                    _ => return ControlFlow::Continue(()),
+                    _ => return ControlFlow::Continue(has_paused),
                 },
                 Mode::Paused => {
-                    pace.anchor = None;
+                    (pace.anchor, has_paused) = (None, true);
                     LOOK
                 }
-                Mode::Stepping(_) | Mode::Finished => return ControlFlow::Continue(()),
+                Mode::Stepping(_) | Mode::Finished => return ControlFlow::Continue(has_paused),
             };
             shared =
                 self.changed.wait_timeout(shared, rest).map_or_else(|broken| broken.into_inner().0, |(guard, _)| guard);

@@ -315,8 +315,8 @@ pub(super) struct Metrics {
 /// Times of the control loop in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Timing {
-    /// Wall time since the tick before (s).
-    pub(super) period: f64,
+    /// Wall time since the tick before (s). `None` in the first tick and after a pause, which is no control period.
+    pub(super) period: Option<f64>,
     /// Wall time of perception, machine and motion (s).
     pub(super) used: f64,
     /// True if they took longer than the control period.

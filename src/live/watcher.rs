@@ -34,6 +34,7 @@ pub struct LiveWatcher<'i> {
     breaks_version: u64,
     samples: Vec<Sample>,
     began_tick: Instant,
+    /// The end of the tick before, unless the run was paused since then.
     last_tick: Option<Instant>,
     /// True if a paused run has to end.
     is_over: Box<dyn FnMut() -> bool + 'i>,
@@ -111,7 +112,10 @@ impl<'i> LiveWatcher<'i> {
 
     /// Waits until the next tick may begin.
     fn wait(&mut self, time: f64) -> ControlFlow<()> {
-        self.hub.wait(&mut self.pace, time, &mut self.is_over)?;
+        if self.hub.wait(&mut self.pace, time, &mut self.is_over)? {
+            // The time of a pause is no control period.
+            self.last_tick = None;
+        }
         self.update_breakpoints();
         ControlFlow::Continue(())
     }
@@ -121,13 +125,13 @@ impl<'i> LiveWatcher<'i> {
         if self.setup.is_emulated {
             let [.., before, newest] = trace.ticks.as_slice() else { return None };
             let period = newest.time - before.time;
-            return Some(Timing { period, used: 0.0, overload: period > 1.5 * self.log.hello.control_period });
+            let overload = period > 1.5 * self.log.hello.control_period;
+            return Some(Timing { period: Some(period), used: 0.0, overload });
         }
         let now = Instant::now();
         let used = now.duration_since(self.began_tick).as_secs_f64();
-        let last = self.last_tick.replace(now)?;
-        let overload = used > self.log.hello.control_period;
-        Some(Timing { period: now.duration_since(last).as_secs_f64(), used, overload })
+        let period = self.last_tick.replace(now).map(|last| now.duration_since(last).as_secs_f64());
+        Some(Timing { period, used, overload: used > self.log.hello.control_period })
     }
 }
 

@@ -1112,13 +1112,13 @@
   }
 
   // src/live/figures.ts
-  var length = (value) => value === null ? "–" : quantity(value, "m");
+  var amount = (value, unit) => value === null || value === void 0 ? "–" : quantity(value, unit);
   var FIGURES = [
-    { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => length(metrics.error) },
+    { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => amount(metrics.error, "m") },
     { name: "coverage", meaning: "share of the reference that was traced", text: ({ metrics }) => metrics.coverage === null ? "–" : `${digits(metrics.coverage * 100)} %` },
-    { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => length(metrics.spread) },
-    { name: "period", meaning: "wall time since the tick before", text: ({ loop }) => loop === null ? "–" : quantity(loop.period, "s") },
-    { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => loop === null ? "–" : quantity(loop.used, "s") },
+    { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => amount(metrics.spread, "m") },
+    { name: "period", meaning: "wall time since the tick before. Pauses do not count", text: ({ loop }) => amount(loop?.period, "s") },
+    { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => amount(loop?.used, "s") },
     { name: "speed", meaning: "commanded speed", text: ({ command }) => quantity(Math.hypot(command[0], command[1]), "m/s") }
   ];
   var MESSAGES = 6;
@@ -1226,8 +1226,8 @@
     const lacks = missing.map((part) => {
       const { text: text2, unit } = info.parts[part] ?? { text: "", unit: null };
       const margin = margins[part];
-      const amount = unit === null || margin === null || margin === void 0 ? "false" : quantity(Math.abs(margin), unit);
-      return info.parts.length > 1 ? `${text2}: ${amount}` : amount;
+      const amount2 = unit === null || margin === null || margin === void 0 ? "false" : quantity(Math.abs(margin), unit);
+      return info.parts.length > 1 ? `${text2}: ${amount2}` : amount2;
     });
     if (lacks.length === 0 && needed !== null && (elapsed ?? 0) < needed) {
       return `${quantity(elapsed ?? 0, "s")} of ${quantity(needed, "s")} elapsed`;
@@ -1721,8 +1721,8 @@
       return this.#scale;
     }
     /** The factor that enlarges a length (m) to the whole width. */
-    enlargement(length2) {
-      return Math.max(1, this.#width / (length2 * this.#scale));
+    enlargement(length) {
+      return Math.max(1, this.#width / (length * this.#scale));
     }
     /** The position (px) of a point. */
     px([x, y]) {
@@ -1774,7 +1774,7 @@
     constructor(run, actions) {
       const { hello } = run;
       const { platform, whiskers } = hello.rig;
-      this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length: length2 }) => Math.hypot(x, y) + length2));
+      this.#reach = Math.max(0.05, ...platform.map(([x, y]) => Math.hypot(x, y)), ...whiskers.map(({ base: [x, y], length }) => Math.hypot(x, y) + length));
       this.#track = new Track(this.#world);
       this.#whiskers = hello.whiskers.map((name, index) => svg("path", { class: `whisker s${index % 8}` }, svg("title", {}, name)));
       this.#tips = hello.whiskers.map((_, index) => svg("path", { class: `tip s${index % 8}` }));

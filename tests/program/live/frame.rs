@@ -1,7 +1,9 @@
-//! What each tick of a run shows on the page.
+//! What each tick of a run shows on the page: coverage and periods.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
 
 use serde_json::{Value, json};
 
@@ -50,4 +52,40 @@ fn the_coverage_of_a_tick_is_that_of_a_run_until_then_however_fast_the_run_is() 
         let shown = coverage(&frames[30 * seconds - 1]);
         assert!(expected > 0.01 && (shown - expected).abs() < 1e-4, "{seconds} s: {shown}, and not {expected}");
     }
+}
+
+#[test]
+fn a_pause_is_no_control_period() {
+    let folder = folder("live-period", &bang());
+    let session = Session::start(&folder, &RUN);
+    let (mut page, _) = session.page();
+    page.until_status("paused");
+    let mut step = |ticks: u64, count: u64| {
+        // Longer than any tick takes.
+        sleep(Duration::from_millis(1500));
+        page.send(&json!({"type": "step", "ticks": ticks}));
+        page.until(|message| message["type"] == "status" && message["state"] == "paused" && message["ticks"] == count)
+            .1
+            .frames
+    };
+    let periods = |frames: Vec<Value>| -> Vec<Option<f64>> {
+        assert!(frames.iter().all(|frame| frame["loop"]["used"].is_f64()), "each tick has a time of execution");
+        frames.iter().map(|frame| frame["loop"]["period"].as_f64()).collect()
+    };
+    let is_short = |period: &Option<f64>| period.is_some_and(|period| period < 1.0);
+    for (ticks, count) in [(1, 1), (1, 2), (5, 7)] {
+        let periods = periods(step(ticks, count));
+        assert!(periods[0].is_none() && periods[1..].iter().all(is_short), "{periods:?}");
+    }
+    // The same at a breakpoint.
+    page.send(&json!({"type": "break", "add": "time > 1 s"}));
+    page.send(&json!({"type": "run"}));
+    page.until(|message| message["type"] == "status" && message["breakpoint"] == "time > 1 s");
+    sleep(Duration::from_millis(1500));
+    let frames = all_frames(&mut page);
+    let after = frames.iter().position(|frame| frame["time"].as_f64().unwrap() > 1.0).unwrap() + 1;
+    let periods = periods(frames);
+    assert_eq!(periods[after], None);
+    assert!(periods[7..].iter().flatten().all(|period| *period < 1.0), "{periods:?}");
+    assert_eq!(periods[8..].iter().filter(|period| period.is_none()).count(), 1);
 }

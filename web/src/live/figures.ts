@@ -11,14 +11,14 @@ interface Figure {
   text: (frame: Frame, run: Run) => string;
 }
 
-const length = (value: number | null): string => (value === null ? "–" : quantity(value, "m"));
+const amount = (value: number | null | undefined, unit: string): string => (value === null || value === undefined ? "–" : quantity(value, unit));
 
 const FIGURES: readonly Figure[] = [
-  { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => length(metrics.error) },
+  { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => amount(metrics.error, "m") },
   { name: "coverage", meaning: "share of the reference that was traced", text: ({ metrics }) => (metrics.coverage === null ? "–" : `${digits(metrics.coverage * 100)} %`) },
-  { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => length(metrics.spread) },
-  { name: "period", meaning: "wall time since the tick before", text: ({ loop }) => (loop === null ? "–" : quantity(loop.period, "s")) },
-  { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => (loop === null ? "–" : quantity(loop.used, "s")) },
+  { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => amount(metrics.spread, "m") },
+  { name: "period", meaning: "wall time since the tick before. Pauses do not count", text: ({ loop }) => amount(loop?.period, "s") },
+  { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => amount(loop?.used, "s") },
   { name: "speed", meaning: "commanded speed", text: ({ command }) => quantity(Math.hypot(command[0], command[1]), "m/s") },
 ];
 

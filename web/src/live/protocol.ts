@@ -95,7 +95,7 @@ export interface Frame {
   command: [x: number, y: number, yawRate: number];
   contour: ContourFrame[];
   metrics: Metrics;
-  loop: { period: number; used: number; overload: boolean } | null;
+  loop: { period: number | null; used: number; overload: boolean } | null;
   messages: string[];
 }
 
