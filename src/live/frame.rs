@@ -6,7 +6,7 @@ use super::guards::GuardNumbers;
 use super::log::RunLog;
 use super::message::{ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
 use super::shadow::Shadow;
-use crate::geometry::{Point2, unit};
+use crate::geometry::{Point2, Pose, unit};
 use crate::recording::shaft_points;
 use crate::run::{TickRecord, Trace};
 use crate::scene::Truth;
@@ -49,12 +49,11 @@ impl Frames {
         let messages = trace.messages.iter().rev().take_while(|message| message.tick == index);
         let mut messages: Vec<String> = messages.map(|message| message.message.text.to_string()).collect();
         messages.reverse();
-        let Point2 { coords } = tick.body.position;
         Some(Frame {
             tick: index,
             time: tick.time,
             states: log.path(tick.state),
-            pose: [rounded(coords.x), rounded(coords.y), tick.body.heading],
+            pose: drawn_pose(&tick.body),
             whiskers: self.whiskers(tick),
             guards: shadow.guards(numbers),
             taken: shadow.taken(numbers),
@@ -117,6 +116,11 @@ impl Frames {
 
 fn point(point: Point2) -> [f64; 2] {
     [rounded(point.x), rounded(point.y)]
+}
+
+/// A pose (m, rad) for a picture.
+pub(super) fn drawn_pose(pose: &Pose) -> [f64; 3] {
+    [rounded(pose.position.x), rounded(pose.position.y), pose.heading]
 }
 
 /// A coordinate (m) for a picture.

@@ -6,7 +6,7 @@ use vibrissa_runtime::machine::{Program, Target, Transition, TransitionId};
 use vibrissa_runtime::rig::Rig;
 
 use super::change::Changeable;
-use super::frame::rounded;
+use super::frame::{drawn_pose, rounded};
 use super::guards::GuardNumbers;
 use super::message::{
     BreakpointInfo, Capabilities, ChartInfo, GuardInfo, Hello, Outline, PROTOCOL, PartInfo, RigInfo, StateInfo,
@@ -59,6 +59,7 @@ pub(super) fn hello(
         parameters,
         scene: setup.scene.as_ref().map(outlines),
         rig: rig(&setup.rig, bound),
+        start: setup.start.as_ref().map(drawn_pose),
         breakpoints: policy.map(breakpoints).unwrap_or_default(),
     };
     (hello, numbers, changeable)

@@ -74,6 +74,8 @@ pub(super) struct Hello {
     pub(super) scene: Option<Vec<Outline>>,
     /// The rig.
     pub(super) rig: RigInfo,
+    /// Position (m) and heading (rad) of the platform before the first tick. `None` if they are not known.
+    pub(super) start: Option<[f64; 3]>,
     /// The breakpoints.
     pub(super) breakpoints: Vec<BreakpointInfo>,
 }

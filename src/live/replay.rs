@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::setup::RunSetup;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Pose};
 use crate::recording::RunRecording;
 use crate::run::{Run, Watcher, drive};
 use crate::scene::{Goal, Stop};
@@ -40,6 +40,7 @@ impl<'r> LiveReplay<'r> {
             duration: Some(ticks as f64 / rig.sensing.control_rate),
             known_ticks: Some(ticks),
             scene: trial.as_ref().map(|trial| trial.scene.clone()),
+            start: self.first_pose(),
             trial,
             program,
             policy: self.recording.policy().cloned(),
@@ -47,6 +48,13 @@ impl<'r> LiveReplay<'r> {
             is_emulated: false,
             rig: rig.clone(),
         }
+    }
+
+    /// The first recorded pose. A faulty pose may be no number.
+    fn first_pose(&self) -> Option<Pose> {
+        let is_finite =
+            |pose: &Pose| [pose.position.x, pose.position.y, pose.heading].iter().all(|part| part.is_finite());
+        self.recording.samples().iter().flatten().map(|sample| sample.body).find(is_finite)
     }
 
     /// Replays the recording. The result is `None` if the watcher ended the replay.

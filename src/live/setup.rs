@@ -6,6 +6,7 @@ use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::rig::Rig;
 
 use crate::diagnostic::Source;
+use crate::geometry::Pose;
 use crate::scene::Scene;
 use crate::trial::Trial;
 
@@ -26,6 +27,8 @@ pub struct RunSetup {
     pub(super) rig: Rig,
     /// The scene, if it is known.
     pub(super) scene: Option<Scene>,
+    /// The pose of the platform before the first tick, if it is known.
+    pub(super) start: Option<Pose>,
     /// The trial, if its world can be simulated again.
     pub(super) trial: Option<Trial>,
     /// The program of the run.
@@ -52,6 +55,7 @@ impl RunSetup {
             known_ticks: None,
             rig: trial.assumed_rig.clone(),
             scene: Some(trial.scene.clone()),
+            start: Some(trial.scene.start),
             trial: Some(trial.clone()),
             program: Arc::clone(&trial.program),
             no_guards: policy.is_none().then(|| no_guards.to_owned()),

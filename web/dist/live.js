@@ -1821,9 +1821,13 @@
       for (const outline of hello.scene ?? []) {
         outline.points.forEach((point) => this.#world.include(point, 0.05));
       }
+      if (hello.start) {
+        this.#world.include([hello.start[0], hello.start[1]], this.#reach);
+      }
     }
     update({ run, frame, answer }) {
-      if (frame === void 0) {
+      const { scene, start } = run.hello;
+      if (frame === void 0 && scene === null && start === null) {
         return;
       }
       const hasGrown = this.#include(run, answer);
@@ -1832,15 +1836,24 @@
         this.#drawnWidth = width;
         const height = this.#world.fit(width, TALLEST);
         this.#zoom.resize(width, height);
-        set(this.#objects, { d: (run.hello.scene ?? []).map(({ points, closed }) => this.#world.line(points, closed)).join("") });
+        set(this.#objects, { d: (scene ?? []).map(({ points, closed }) => this.#world.line(points, closed)).join("") });
         this.#track.clear();
       }
-      this.#track.show(run.history.frames, frame.tick);
-      this.#robot(run, frame);
-      this.#other(run, frame, answer);
-      if (this.#isClose) {
-        this.#zoom.look(...this.#world.px([frame.pose[0], frame.pose[1]]), this.#world.enlargement(CLOSE));
+      const pose = frame?.pose ?? start;
+      if (pose === null) {
+        return;
       }
+      set(this.#platform, { d: this.#outline(run.hello.rig.platform, pose) });
+      if (this.#isClose) {
+        this.#zoom.look(...this.#world.px([pose[0], pose[1]]), this.#world.enlargement(CLOSE));
+      }
+      if (frame === void 0) {
+        this.#undeflected(run, pose);
+        return;
+      }
+      this.#track.show(run.history.frames, frame.tick);
+      this.#robot(frame);
+      this.#other(run, frame, answer);
     }
     /** Includes everything that the page has received since the last call. True if the drawn part grows. */
     #include(run, answer) {
@@ -1862,8 +1875,18 @@
       }
       return points.map((point) => this.#world.include(point, this.#reach)).some((grows) => grows);
     }
-    #robot({ hello: { rig } }, frame) {
-      set(this.#platform, { d: this.#outline(rig.platform, frame.pose) });
+    /** The whiskers before the first tick. */
+    #undeflected({ hello: { rig } }, pose) {
+      rig.whiskers.forEach(({ base: [x, y], direction, length }, index) => {
+        const tip = [x + length * Math.cos(direction), y + length * Math.sin(direction)];
+        const shaft = this.#whiskers[index];
+        if (shaft) {
+          set(shaft, { d: this.#world.line([placed(pose, [x, y]), placed(pose, tip)]) });
+        }
+      });
+    }
+    /** The command, the whiskers and the tips of a tick. */
+    #robot(frame) {
       const [x, y] = frame.pose;
       const [vx, vy] = frame.command;
       set(this.#command, { d: Math.hypot(vx, vy) > 1e-4 ? this.#arrow([x, y], [x + vx * AHEAD, y + vy * AHEAD]) : "" });

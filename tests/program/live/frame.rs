@@ -1,4 +1,4 @@
-//! What each tick of a run shows on the page: coverage and periods.
+//! What each tick of a run shows on the page: coverage, periods, and the start before the first tick.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 
 use super::session::{SCENE, Session, Viewer};
-use crate::command::program::{ROOT, directory, stdout, vibrissa};
+use crate::command::program::{ROOT, directory, stderr, stdout, vibrissa};
 
 /// A folder with the scene and a policy.
 fn folder(name: &str, policy: &str) -> PathBuf {
@@ -88,4 +88,28 @@ fn a_pause_is_no_control_period() {
     assert_eq!(periods[after], None);
     assert!(periods[7..].iter().flatten().all(|period| *period < 1.0), "{periods:?}");
     assert_eq!(periods[8..].iter().filter(|period| period.is_none()).count(), 1);
+}
+
+#[test]
+fn a_page_knows_the_start_pose_before_the_first_tick() {
+    let folder = folder("live-start", &bang());
+    let [scene, policy, file] =
+        ["scene.yaml", "policy.fsm", "run.mcap"].map(|name| folder.join(name).to_str().unwrap().to_owned());
+    let output = vibrissa(&["run", &scene, "--policy", &policy, "--record", &file]);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(&output));
+    let commands = [
+        &["run", "scene.yaml", "--policy", "policy.fsm"][..],
+        &["drive", "policy.fsm", "--emulate", "scene.yaml"],
+        // The scene of this recording is not known, but the first pose is.
+        &["replay", "run.mcap"],
+    ];
+    for words in commands {
+        let session = Session::start(&folder, &[words, &["--live", "--paused"]].concat());
+        let (mut page, hello) = session.page();
+        let (_, ticks) = page.until_status("paused");
+        assert_eq!(ticks.frames.len(), 0);
+        let start: Vec<f64> = hello["start"].as_array().unwrap().iter().map(|part| part.as_f64().unwrap()).collect();
+        let expected = [0.0, 0.072, std::f64::consts::FRAC_PI_2];
+        assert!(start.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{words:?}: {start:?}");
+    }
 }

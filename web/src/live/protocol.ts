@@ -29,6 +29,7 @@ export interface Hello {
   parameters: ParameterInfo[];
   scene: Outline[] | null;
   rig: { platform: Point[]; whiskers: { base: Point; direction: number; length: number; threshold: number }[] };
+  start: Pose | null;
   breakpoints: BreakpointInfo[];
 }
 
