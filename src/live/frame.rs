@@ -8,7 +8,7 @@ use super::message::{ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
 use super::shadow::Shadow;
 use crate::geometry::{Point2, Pose, unit};
 use crate::recording::shaft_points;
-use crate::run::{TickRecord, Trace};
+use crate::run::{PlotRecord, TickRecord, Trace};
 use crate::scene::Truth;
 use crate::score::CoverageTracker;
 
@@ -49,6 +49,10 @@ impl Frames {
         let messages = trace.messages.iter().rev().take_while(|message| message.tick == index);
         let mut messages: Vec<String> = messages.map(|message| message.message.text.to_string()).collect();
         messages.reverse();
+        let plot = |plot: &PlotRecord| {
+            let newest = plot.values.last().filter(|(tick, value)| *tick == index && value.is_finite());
+            newest.map(|&(_, value)| value)
+        };
         Some(Frame {
             tick: index,
             time: tick.time,
@@ -62,6 +66,7 @@ impl Frames {
             metrics: self.metrics(),
             timing,
             messages,
+            plots: trace.plots.iter().map(plot).collect(),
         })
     }
 

@@ -2,15 +2,15 @@
 
 use std::collections::HashMap;
 
-use vibrissa_runtime::machine::{Program, Target, Transition, TransitionId};
+use vibrissa_runtime::machine::{OutputKind, Plot, Program, Target, Transition, TransitionId};
 use vibrissa_runtime::rig::Rig;
 
 use super::change::Changeable;
 use super::frame::{drawn_pose, rounded};
 use super::guards::GuardNumbers;
 use super::message::{
-    BreakpointInfo, Capabilities, ChartInfo, GuardInfo, Hello, Outline, PROTOCOL, PartInfo, RigInfo, StateInfo,
-    TransitionInfo, WhiskerInfo,
+    BreakpointInfo, Capabilities, ChartInfo, GuardInfo, Hello, Outline, PROTOCOL, PartInfo, PlotInfo, RigInfo,
+    StateInfo, TransitionInfo, WhiskerInfo,
 };
 use super::setup::RunSetup;
 use crate::geometry::Contour;
@@ -60,6 +60,7 @@ pub(super) fn hello(
         scene: setup.scene.as_ref().map(outlines),
         rig: rig(&setup.rig, bound),
         start: setup.start.as_ref().map(drawn_pose),
+        plots: setup.program.outputs.plots.iter().map(plot).collect(),
         breakpoints: policy.map(breakpoints).unwrap_or_default(),
     };
     (hello, numbers, changeable)
@@ -144,6 +145,17 @@ fn chart(
         transitions.extend(of(Some(index), &state.transitions, state.fallback.as_ref()));
     }
     ChartInfo { states: states.collect(), transitions }
+}
+
+fn plot(plot: &Plot) -> PlotInfo {
+    let (unit, choices) = match &plot.kind {
+        OutputKind::Number(dimension) => (dimension.si_unit(), Vec::new()),
+        OutputKind::Truth => (String::new(), ["false", "true"].map(str::to_owned).to_vec()),
+        OutputKind::Choice(names) => (String::new(), names.clone()),
+        // No plot is one of these.
+        OutputKind::Vector(_) | OutputKind::Whisker => (String::new(), Vec::new()),
+    };
+    PlotInfo { name: plot.name.clone(), unit, choices }
 }
 
 fn outlines(scene: &Scene) -> Vec<Outline> {

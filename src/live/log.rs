@@ -230,18 +230,24 @@ impl Past {
     }
 }
 
-/// The frames whose index is a multiple of `every`, and the last one. Events of the dropped frames are in the next kept one.
+/// The frames whose index is a multiple of `every`, and the last one. Events of the dropped frames are in the next kept one, and so are
+/// plots that it has not set itself.
 fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
     let mut kept = Vec::with_capacity(frames.len() / every.max(1) + 1);
     let (mut contour, mut taken, mut messages) = (Vec::new(), Vec::new(), Vec::new());
+    let mut plots: Vec<Option<f64>> = Vec::new();
     for (place, frame) in frames.iter().enumerate() {
         if !frame.tick.is_multiple_of(every.max(1)) && place + 1 < frames.len() {
             contour.extend_from_slice(&frame.contour);
             taken.extend_from_slice(&frame.taken);
             messages.extend_from_slice(&frame.messages);
+            plots.resize(frame.plots.len(), None);
+            plots.iter_mut().zip(&frame.plots).for_each(|(kept, value)| *kept = value.or(*kept));
             continue;
         }
-        if contour.is_empty() && taken.is_empty() && messages.is_empty() {
+        let has_plots = frame.plots.iter().zip(&plots).any(|(own, before)| own.is_none() && before.is_some());
+        if contour.is_empty() && taken.is_empty() && messages.is_empty() && !has_plots {
+            plots.clear();
             kept.push(Arc::clone(frame));
             continue;
         }
@@ -249,6 +255,7 @@ fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
         frame.contour.splice(0..0, contour.drain(..));
         frame.taken.splice(0..0, taken.drain(..));
         frame.messages.splice(0..0, messages.drain(..));
+        frame.plots.iter_mut().zip(plots.drain(..)).for_each(|(own, before)| *own = own.or(before));
         kept.push(Arc::new(frame));
     }
     kept
@@ -260,7 +267,7 @@ mod tests {
     use crate::live::message::{ContourFrame, Metrics};
     use proptest::prelude::*;
 
-    fn frame(tick: usize, tips: usize) -> Arc<Frame> {
+    fn frame(tick: usize, tips: usize, plot: Option<f64>) -> Arc<Frame> {
         let tip =
             |number: usize| ContourFrame { whisker: number, point: [tick as f64, 0.0], spread: None, error: None };
         Arc::new(Frame {
@@ -276,6 +283,7 @@ mod tests {
             metrics: Metrics::default(),
             timing: None,
             messages: Vec::new(),
+            plots: vec![plot],
         })
     }
 
@@ -284,7 +292,7 @@ mod tests {
         fn thinned_ticks_have_all_recorded_tips_in_their_order(
             tips in prop::collection::vec(0..4_usize, 0..60), every in 1..9_usize,
         ) {
-            let frames: Vec<_> = tips.iter().enumerate().map(|(tick, &tips)| frame(tick, tips)).collect();
+            let frames: Vec<_> = tips.iter().enumerate().map(|(tick, &tips)| frame(tick, tips, None)).collect();
             let kept = thinned(&frames, every);
             let all = |frames: &[Arc<Frame>]| frames.iter().flat_map(|frame| frame.contour.clone()).collect::<Vec<_>>();
             prop_assert_eq!(all(&kept), all(&frames));
@@ -292,6 +300,19 @@ mod tests {
             prop_assert!(kept.len() <= frames.len().div_ceil(every) + 1);
             let mut earlier = kept.iter().rev().skip(1);
             prop_assert!(earlier.all(|frame| frame.tick % every == 0));
+        }
+
+        #[test]
+        fn a_thinned_tick_has_the_last_value_of_a_plot_since_the_kept_tick_before(
+            values in prop::collection::vec(prop::option::of(0.0..1.0_f64), 0..60), every in 1..9_usize,
+        ) {
+            let frames: Vec<_> = values.iter().enumerate().map(|(tick, &value)| frame(tick, 0, value)).collect();
+            let mut from = 0;
+            for kept in thinned(&frames, every) {
+                let last = values[from..=kept.tick].iter().flatten().last().copied();
+                prop_assert_eq!(&kept.plots, &[last]);
+                from = kept.tick + 1;
+            }
         }
     }
 }

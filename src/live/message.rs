@@ -76,6 +76,8 @@ pub(super) struct Hello {
     pub(super) rig: RigInfo,
     /// Position (m) and heading (rad) of the platform before the first tick. `None` if they are not known.
     pub(super) start: Option<[f64; 3]>,
+    /// The plots of the policy.
+    pub(super) plots: Vec<PlotInfo>,
     /// The breakpoints.
     pub(super) breakpoints: Vec<BreakpointInfo>,
 }
@@ -180,6 +182,17 @@ pub(super) struct ParameterInfo {
     pub(super) guard: Option<usize>,
 }
 
+/// A plot of the policy.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(super) struct PlotInfo {
+    /// Its name.
+    pub(super) name: String,
+    /// The SI unit of its values. Empty for a number, and if there are choices.
+    pub(super) unit: String,
+    /// The names of the values 0, 1, 2 and so on. Empty for a quantity.
+    pub(super) choices: Vec<String>,
+}
+
 /// An outline.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Outline {
@@ -257,6 +270,8 @@ pub(super) struct Frame {
     pub(super) timing: Option<Timing>,
     /// The messages that the policy has logged.
     pub(super) messages: Vec<String>,
+    /// The values (SI) of [`Hello::plots`]. `None` for a plot that this tick has not set, or not to a finite number.
+    pub(super) plots: Vec<Option<f64>>,
 }
 
 /// A whisker in a tick.
@@ -353,7 +368,8 @@ pub(super) struct History {
     pub(super) from: usize,
     /// The tick after the last one.
     pub(super) to: usize,
-    /// The kept ticks among them, at most as many as were asked for. Recorded tips of other ticks are in the next kept tick.
+    /// The kept ticks among them, at most as many as were asked for. Recorded tips of other ticks are in the next kept tick, and so
+    /// are plots that it has not set itself.
     pub(super) frames: Vec<Arc<Frame>>,
 }
 

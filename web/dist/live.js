@@ -688,12 +688,15 @@
         this.#thin();
       }
     }
-    /** Removes every second one of the older ticks. The next one gets their recorded tips. */
+    /** Removes every second one of the older ticks. The next one gets their recorded tips, and the plots that it has not set. */
     #thin() {
       const isRemoved = (index) => index < this.#frames.length / 2 && index % 2 === 1;
       this.#frames = this.#frames.flatMap((frame, index, frames) => {
         const before = isRemoved(index - 1) ? frames[index - 1] : void 0;
-        return isRemoved(index) ? [] : [before === void 0 ? frame : { ...frame, contour: [...before.contour, ...frame.contour] }];
+        if (isRemoved(index)) {
+          return [];
+        }
+        return [before === void 0 ? frame : { ...frame, contour: [...before.contour, ...frame.contour], plots: frame.plots.map((value, plot) => value ?? before.plots[plot] ?? null) }];
       });
       this.#spans = void 0;
     }
@@ -1251,6 +1254,8 @@
   var BOTTOM = 18;
   var LEFT2 = 62;
   var RIGHT = 14;
+  var ROWS = 8;
+  var LETTERS = 9;
   var Plot = class {
     element;
     subject;
@@ -1304,7 +1309,7 @@
         const shown = view.frame === void 0 ? void 0 : value(view.frame);
         const output = this.#values[index];
         if (output) {
-          output.textContent = shown === null || shown === void 0 ? "–" : quantity(shown, this.subject.unit);
+          output.textContent = shown === null || shown === void 0 ? "–" : this.#text(shown);
         }
       });
     }
@@ -1318,17 +1323,17 @@
       const first = Math.max(0, run.history.indexAtTime(this.#axis.from));
       const frames = run.history.frames.slice(first, run.history.indexAtTime(this.#axis.to) + 2);
       const curves2 = this.subject.series.map(({ value }) => this.#reduced(frames, value));
-      const levels = this.subject.levels ?? [];
+      const { levels = [], choices = [] } = this.subject;
       const values = [...curves2.flat().filter((point) => point !== null).map(([, y2]) => y2)];
-      const [low, high] = extent(values, levels.map(({ value }) => value));
+      const [low, high] = choices.length > 0 ? [0, Math.max(1, choices.length - 1)] : extent(values, levels.map(({ value }) => value));
       const y = (value) => top + HEIGHT2 - 3 - (value - low) / (high - low) * (HEIGHT2 - 6);
       const parts = [];
       for (const time of ticksOf(this.#axis.from, this.#axis.to, Math.max(2, (width - LEFT2) / 110))) {
         const x = this.#axis.x(time);
         parts.push(svg("line", { class: "grid", x1: x, x2: x, y1: top, y2: top + HEIGHT2 }), svg("text", { class: "tick", x, y: height - 4, "text-anchor": "middle" }, `${Number(time.toPrecision(6))} s`));
       }
-      for (const value of ticksOf(low, high, 4)) {
-        parts.push(svg("line", { class: "grid", x1: LEFT2, x2: width - RIGHT, y1: y(value), y2: y(value) }), svg("text", { class: "tick", x: LEFT2 - 4, y: y(value) + 4, "text-anchor": "end" }, quantity(value, this.subject.unit)));
+      for (const value of choices.length > 0 ? rowsOf(choices.length) : ticksOf(low, high, 4)) {
+        parts.push(svg("line", { class: "grid", x1: LEFT2, x2: width - RIGHT, y1: y(value), y2: y(value) }), svg("text", { class: "tick", x: LEFT2 - 4, y: y(value) + 4, "text-anchor": "end" }, short(this.#text(value))));
       }
       for (const { name, value } of levels) {
         parts.push(svg("line", { class: "level", x1: LEFT2, x2: width - RIGHT, y1: y(value), y2: y(value) }, svg("title", {}, name)));
@@ -1340,6 +1345,10 @@
         parts.push(svg("path", { class: "marks", d: marks.join("") }));
       }
       this.#content.replaceChildren(...parts);
+    }
+    /** The text of a value. */
+    #text(value) {
+      return this.subject.choices?.[value] ?? quantity(value, this.subject.unit);
     }
     /** The curve of a value with at most two points for each pixel: the least and the greatest value. `null` is a gap. */
     #reduced(frames, value) {
@@ -1391,6 +1400,13 @@
       this.#svg.addEventListener("pointercancel", end, { once: true });
     }
   };
+  function rowsOf(count) {
+    const step = Math.ceil(count / ROWS);
+    return Array.from({ length: Math.ceil(count / step) }, (_, row) => row * step);
+  }
+  function short(text2) {
+    return text2.length > LETTERS ? `${text2.slice(0, LETTERS - 1)}…` : text2;
+  }
   function extent(values, levels) {
     let [low, high] = [Infinity, -Infinity];
     const include = (value) => {
@@ -1951,7 +1967,8 @@
     };
     const coverage = { title: "Coverage", unit: "", series: [{ name: "coverage", value: ({ metrics }) => metrics.coverage }] };
     const isKnown = hello.scene !== null;
-    return [angles, loop, contour, ...isKnown ? [coverage] : []];
+    const ofPolicy = hello.plots.map(({ name, unit, choices }, index) => ({ title: name, unit, choices, series: [{ name: "", value: ({ plots }) => plots[index] }] }));
+    return [angles, ...ofPolicy, loop, contour, ...isKnown ? [coverage] : []];
   }
   function subjectsOf(guard) {
     const units = [...new Set(guard.parts.flatMap(({ unit }) => unit === null ? [] : [unit]))];

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { mkdtemp, rm } from "node:fs/promises";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { browser, checkFit, open, tabTo } from "./browser.mjs";
@@ -162,6 +162,62 @@ await serve(run, async (address) => {
     }
   });
 });
+
+// The start is drawn before the first tick. A policy has its own plots, and the figures count neither pauses nor wall time.
+const policy = join(scratch, "plots.fsm");
+await writeFile(policy, `machine plots
+whisker r0
+type Side = left or right
+initial Go
+state Go {
+  plot bend = |r0.deflection|
+  plot touches = r0.touching
+  plot side = if r0.touching then Side.right else Side.left
+  record r0
+  steer body along direction(body.yaw) at 50 mm/s turning 0 deg/s
+  after 15 s -> Success("done")
+}
+`);
+await serve(["run", "scenarios/disk.yaml", "--policy", policy, "--world", "quasistatic", "--paused", "--live-speed", "max", "--live"], (address) =>
+  open(address, "dark", 1600, async (page) => {
+    await expectStatus(page, /paused at the start/);
+    await page.waitForFunction(() => {
+      const { width, height } = document.querySelector(".scene svg").viewBox.baseVal;
+      const isInside = (part) => {
+        const box = part.getBBox();
+        return box.width + box.height > 5 && box.x >= 0 && box.y >= 0 && box.x + box.width <= width && box.y + box.height <= height;
+      };
+      const parts = [".objects", ".platform:not(.other)", ".whisker"].map((part) => [...document.querySelectorAll(`.scene ${part}`)]);
+      return parts.every((parts) => parts.length > 0 && parts.every(isInside));
+    });
+    assert.equal(await page.textContent(".time"), "", "no tick is shown");
+
+    /** The text of a figure. */
+    const figure = (name) => page.evaluate((name) => [...document.querySelectorAll(".figures div")].find((part) => part.querySelector("dt").textContent === name).querySelector("dd").textContent, name);
+    for (const tick of [0, 1]) {
+      await page.waitForTimeout(300);
+      await page.keyboard.press("s");
+      await expectTick(page, tick);
+      assert.equal(await figure("period"), "–", "a pause is no period");
+    }
+    await page.keyboard.press("S");
+    await expectTick(page, 31);
+    assert.match(await figure("period"), /s$/);
+    const guard = await page.textContent(".guards li:not([hidden]) .distance");
+    assert.match(guard, /^1\.0\d s of 15 s elapsed$/);
+
+    const plots = await page.$$eval(".plot", (plots) => Object.fromEntries(plots.map((plot) => [plot.querySelector("h3").textContent, [...plot.querySelectorAll("output, .tick")].map(({ textContent }) => textContent)])));
+    assert.match(plots["bend"][0], /rad$|^0 rad/);
+    assert.ok(["false", "true"].every((name) => plots["touches"].includes(name)) && plots["touches"][0] === "false", String(plots["touches"]));
+    assert.ok(["left", "right"].every((name) => plots["side"].includes(name)) && plots["side"][0] === "left", String(plots["side"]));
+
+    await page.keyboard.press("p");
+    await expectStatus(page, /finished: .*coverage [\d.]+ %/);
+    await page.waitForFunction(() => document.querySelector(".time").textContent.startsWith("15."));
+    const coverage = await figure("coverage");
+    assert.ok(parseFloat(coverage) > 0 && (await page.textContent(".status")).endsWith(`coverage ${coverage}`), coverage);
+  }),
+);
 
 // A finished recording can be changed from its first tick on.
 const recording = join(scratch, "disk.mcap");

@@ -11,6 +11,7 @@ async function load(name, page = "live") {
 }
 
 const [{ Run }, { layOut }, { quantity }] = await Promise.all(["run", "layout", "quantity"].map((name) => load(name)));
+const { subjects } = await load("subjects");
 const { csv } = await load("cells", "report");
 const example = JSON.parse(await readFile("test/live-example.json", "utf8"));
 const hello = example.find(({ type }) => type === "hello");
@@ -46,6 +47,23 @@ test("a long run is thinned, and keeps its newest ticks and every recorded tip",
   assert.ok(frames.length <= 40_000, String(frames.length));
   assert.deepEqual(frames.slice(-3000).map(({ tick }) => tick), ticks(117_000, 120_000).map(({ tick }) => tick));
   assert.deepEqual(frames.flatMap(({ contour }) => contour.map(({ point }) => point[0])), Array.from({ length: 120_000 }, (_, tick) => tick));
+});
+
+test("a value of a plot that was set in one tick is kept while a long run is thinned", () => {
+  const run = new Run(hello);
+  const single = [1, 1000, 30_001];
+  for (let from = 0; from < 120_000; from += 3000) {
+    run.add(ticks(from, from + 3000).map((frame) => ({ ...frame, plots: [single.includes(frame.tick) ? frame.tick : null] })));
+  }
+  assert.deepEqual(run.history.frames.flatMap(({ plots: [value] }) => (value === null ? [] : [value])), single);
+});
+
+test("the plots of a policy have their units, and a value without a quantity has its name", () => {
+  const plots = [{ name: "bend", unit: "rad", choices: [] }, { name: "touches", unit: "", choices: ["false", "true"] }];
+  const added = subjects(new Run({ ...hello, plots })).filter(({ title }) => plots.some(({ name }) => name === title));
+  assert.deepEqual(added.map(({ unit, choices }) => [unit, choices]), plots.map(({ unit, choices }) => [unit, choices]));
+  const frame = { ...pattern, plots: [0.1, null] };
+  assert.deepEqual(added.map(({ series: [{ value }] }) => value(frame)), [0.1, null]);
 });
 
 test("the nearest tick of a time is found, and states are joined to spans without a gap", () => {

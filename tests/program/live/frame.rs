@@ -1,4 +1,4 @@
-//! What each tick of a run shows on the page: coverage, periods, and the start before the first tick.
+//! What each tick of a run shows on the page: plots of the policy, coverage, periods, and the start before the first tick.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,14 @@ use serde_json::{Value, json};
 
 use super::session::{SCENE, Session, Viewer};
 use crate::command::program::{ROOT, directory, stderr, stdout, vibrissa};
+
+/// A policy with a plot of each kind. One is set in a single tick, and one only now and then.
+const PLOTS: &str = "machine plotter\nwhisker r0 by one_channel\ntype Side = left or right\nvar nearer = Side.left\ninitial Go\n\
+    state Go {\n  plot bend = |r0.deflection|\n  plot touches = r0.touching\n  plot side = nearer\n\
+    entry { plot begun = time }\n  if r0.touching { plot touched = time }\n\
+    steer body along direction(body.yaw) at 30 mm/s turning 0 deg/s\n  when time > 4 s -> Turn\n}\n\
+    state Turn {\n  entry { set nearer = Side.right }\n  plot side = nearer\n\
+    steer body along direction(body.yaw) at 10 mm/s turning 5 deg/s\n  after 15 s -> Go\n}\n";
 
 /// A folder with the scene and a policy.
 fn folder(name: &str, policy: &str) -> PathBuf {
@@ -31,6 +39,75 @@ fn all_frames(page: &mut Viewer) -> Vec<Value> {
     page.send(&json!({"type": "range", "from": 0, "to": status["ticks"]}));
     let (history, _) = page.until(|message| message["type"] == "history");
     history["frames"].as_array().unwrap().clone()
+}
+
+/// The plots of a tick by their names, with the values as `run --ticks` writes them.
+fn plots(hello: &Value, frame: &Value) -> Vec<(String, Value)> {
+    let infos = hello["plots"].as_array().unwrap().iter();
+    let set = infos.zip(frame["plots"].as_array().unwrap()).filter(|(_, value)| !value.is_null());
+    let shown = |(info, value): (&Value, &Value)| {
+        let choices = info["choices"].as_array().unwrap();
+        let name = value
+            .as_f64()
+            .and_then(|index| choices.iter().zip(0..).find(|(_, own)| (f64::from(*own) - index).abs() < 0.5));
+        let value = match name.and_then(|(name, _)| name.as_str()) {
+            Some("false") => json!(false),
+            Some("true") => json!(true),
+            Some(name) => json!(name),
+            None => value.clone(),
+        };
+        (info["name"].as_str().unwrap().to_owned(), value)
+    };
+    set.map(shown).collect()
+}
+
+#[test]
+fn each_tick_has_the_plots_that_the_policy_has_set() {
+    let folder = folder("live-plots", PLOTS);
+    let written = folder.join("ticks.jsonl");
+    let words = [&RUN[..], &["--ticks", "ticks.jsonl", "--record", "run.mcap"]].concat();
+    let session = Session::start(&folder, &words);
+    let (mut page, hello) = session.page();
+    let expected = json!([
+        {"name": "bend", "unit": "rad", "choices": []},
+        {"name": "touches", "unit": "", "choices": ["false", "true"]},
+        {"name": "side", "unit": "", "choices": ["left", "right"]},
+        {"name": "begun", "unit": "s", "choices": []},
+        {"name": "touched", "unit": "s", "choices": []},
+    ]);
+    let sorted = |plots: &Value| {
+        let mut plots = plots.as_array().unwrap().clone();
+        plots.sort_by_key(|plot| plot["name"].as_str().unwrap().to_owned());
+        plots
+    };
+    assert_eq!(sorted(&hello["plots"]), sorted(&expected));
+    let frames = all_frames(&mut page);
+    session.until("Ctrl-C");
+    let lines = fs::read_to_string(written).unwrap();
+    let ticks: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(frames.len(), ticks.len());
+    for (frame, tick) in frames.iter().zip(&ticks) {
+        let line = |plot: &Value| (plot["plot"].as_str().unwrap().to_owned(), plot["value"].clone());
+        let expected: Vec<_> = tick["plots"].as_array().unwrap().iter().map(line).collect();
+        assert_eq!(plots(&hello, frame), expected, "tick {}", frame["tick"]);
+    }
+    let begun = hello["plots"].as_array().unwrap().iter().position(|plot| plot["name"] == "begun").unwrap();
+    let count = |frames: &[Value]| frames.iter().filter(|frame| !frame["plots"][begun].is_null()).count();
+    assert_eq!(count(&frames), 2, "the state is entered twice");
+
+    // The value of a single tick is also among fewer ticks of the past.
+    page.send(&json!({"type": "range", "from": 0, "to": frames.len(), "most": 50}));
+    let (history, _) = page.until(|message| message["type"] == "history");
+    assert_eq!(count(history["frames"].as_array().unwrap()), 2);
+
+    // A replay and the loop of the robot show the same plots.
+    for words in [&["replay", "run.mcap"][..], &["drive", "policy.fsm", "--emulate", "scene.yaml"]] {
+        let options = ["--live", "--paused", "--live-speed", "max"];
+        let session = Session::start(&folder, &[words, &options].concat());
+        let (mut page, other) = session.page();
+        assert_eq!(other["plots"], hello["plots"], "{words:?}");
+        assert!(all_frames(&mut page).iter().any(|frame| !frame["plots"][begun].is_null()), "{words:?}");
+    }
 }
 
 #[test]

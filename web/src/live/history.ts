@@ -42,12 +42,15 @@ export class History {
     }
   }
 
-  /** Removes every second one of the older ticks. The next one gets their recorded tips. */
+  /** Removes every second one of the older ticks. The next one gets their recorded tips, and the plots that it has not set. */
   #thin(): void {
     const isRemoved = (index: number): boolean => index < this.#frames.length / 2 && index % 2 === 1;
     this.#frames = this.#frames.flatMap((frame, index, frames) => {
       const before = isRemoved(index - 1) ? frames[index - 1] : undefined;
-      return isRemoved(index) ? [] : [before === undefined ? frame : { ...frame, contour: [...before.contour, ...frame.contour] }];
+      if (isRemoved(index)) {
+        return [];
+      }
+      return [before === undefined ? frame : { ...frame, contour: [...before.contour, ...frame.contour], plots: frame.plots.map((value, plot) => value ?? before.plots[plot] ?? null) }];
     });
     this.#spans = undefined;
   }

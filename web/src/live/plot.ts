@@ -19,6 +19,8 @@ export interface Subject {
   title: string;
   /** SI unit. */
   unit: string;
+  /** The names of the values 0, 1, 2 and so on, if these are no quantities. */
+  choices?: string[];
   series: Series[];
   /** Ticks that are marked. */
   marked?: { name: string; holds: (frame: Frame) => boolean };
@@ -33,6 +35,9 @@ const TOP = 2 * STRIP + 8;
 const BOTTOM = 18;
 const LEFT = 62;
 const RIGHT = 14;
+/** The largest number of names beside the axis, and of letters of one. */
+const ROWS = 8;
+const LETTERS = 9;
 
 /** A plot over time. The strip above it shows the active states, and under them those of a counterfactual. */
 export class Plot implements Panel {
@@ -90,7 +95,7 @@ export class Plot implements Panel {
       const shown = view.frame === undefined ? undefined : value(view.frame);
       const output = this.#values[index];
       if (output) {
-        output.textContent = shown === null || shown === undefined ? "–" : quantity(shown, this.subject.unit);
+        output.textContent = shown === null || shown === undefined ? "–" : this.#text(shown);
       }
     });
   }
@@ -105,17 +110,17 @@ export class Plot implements Panel {
     const first = Math.max(0, run.history.indexAtTime(this.#axis.from));
     const frames = run.history.frames.slice(first, run.history.indexAtTime(this.#axis.to) + 2);
     const curves = this.subject.series.map(({ value }) => this.#reduced(frames, value));
-    const levels = this.subject.levels ?? [];
+    const { levels = [], choices = [] } = this.subject;
     const values = [...curves.flat().filter((point) => point !== null).map(([, y]) => y)];
-    const [low, high] = extent(values, levels.map(({ value }) => value));
+    const [low, high] = choices.length > 0 ? [0, Math.max(1, choices.length - 1)] : extent(values, levels.map(({ value }) => value));
     const y = (value: number): number => top + HEIGHT - 3 - ((value - low) / (high - low)) * (HEIGHT - 6);
     const parts: SVGElement[] = [];
     for (const time of ticksOf(this.#axis.from, this.#axis.to, Math.max(2, (width - LEFT) / 110))) {
       const x = this.#axis.x(time);
       parts.push(svg("line", { class: "grid", x1: x, x2: x, y1: top, y2: top + HEIGHT }), svg("text", { class: "tick", x, y: height - 4, "text-anchor": "middle" }, `${Number(time.toPrecision(6))} s`));
     }
-    for (const value of ticksOf(low, high, 4)) {
-      parts.push(svg("line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y(value), y2: y(value) }), svg("text", { class: "tick", x: LEFT - 4, y: y(value) + 4, "text-anchor": "end" }, quantity(value, this.subject.unit)));
+    for (const value of choices.length > 0 ? rowsOf(choices.length) : ticksOf(low, high, 4)) {
+      parts.push(svg("line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y(value), y2: y(value) }), svg("text", { class: "tick", x: LEFT - 4, y: y(value) + 4, "text-anchor": "end" }, short(this.#text(value))));
     }
     for (const { name, value } of levels) {
       parts.push(svg("line", { class: "level", x1: LEFT, x2: width - RIGHT, y1: y(value), y2: y(value) }, svg("title", {}, name)));
@@ -127,6 +132,11 @@ export class Plot implements Panel {
       parts.push(svg("path", { class: "marks", d: marks.join("") }));
     }
     this.#content.replaceChildren(...parts);
+  }
+
+  /** The text of a value. */
+  #text(value: number): string {
+    return this.subject.choices?.[value] ?? quantity(value, this.subject.unit);
   }
 
   /** The curve of a value with at most two points for each pixel: the least and the greatest value. `null` is a gap. */
@@ -179,6 +189,17 @@ export class Plot implements Panel {
     this.#svg.addEventListener("pointerup", end, { once: true });
     this.#svg.addEventListener("pointercancel", end, { once: true });
   }
+}
+
+/** The numbers of choices that have room beside the axis. */
+function rowsOf(count: number): number[] {
+  const step = Math.ceil(count / ROWS);
+  return Array.from({ length: Math.ceil(count / step) }, (_, row) => row * step);
+}
+
+/** A text that fits beside the axis. */
+function short(text: string): string {
+  return text.length > LETTERS ? `${text.slice(0, LETTERS - 1)}…` : text;
 }
 
 /** A range with all values. Levels far outside of the values are left out. */

@@ -30,7 +30,14 @@ export interface Hello {
   scene: Outline[] | null;
   rig: { platform: Point[]; whiskers: { base: Point; direction: number; length: number; threshold: number }[] };
   start: Pose | null;
+  plots: PlotInfo[];
   breakpoints: BreakpointInfo[];
+}
+
+export interface PlotInfo {
+  name: string;
+  unit: string;
+  choices: string[];
 }
 
 export interface GuardInfo {
@@ -98,6 +105,7 @@ export interface Frame {
   metrics: Metrics;
   loop: { period: number | null; used: number; overload: boolean } | null;
   messages: string[];
+  plots: (number | null)[];
 }
 
 export interface Metrics {

@@ -2,7 +2,7 @@ import type { Subject } from "./plot.ts";
 import type { GuardInfo } from "./protocol.ts";
 import type { Run } from "./run.ts";
 
-/** The plots of every run. */
+/** The plots of every run, and those of its policy. */
 export function subjects({ hello }: Run): Subject[] {
   const angles: Subject = {
     title: "Base angles",
@@ -30,7 +30,8 @@ export function subjects({ hello }: Run): Subject[] {
   };
   const coverage: Subject = { title: "Coverage", unit: "", series: [{ name: "coverage", value: ({ metrics }) => metrics.coverage }] };
   const isKnown = hello.scene !== null;
-  return [angles, loop, contour, ...(isKnown ? [coverage] : [])];
+  const ofPolicy = hello.plots.map(({ name, unit, choices }, index): Subject => ({ title: name, unit, choices, series: [{ name: "", value: ({ plots }) => plots[index] }] }));
+  return [angles, ...ofPolicy, loop, contour, ...(isKnown ? [coverage] : [])];
 }
 
 /** The plots of a guard: the margins of its parts, one plot for each unit. */
