@@ -107,9 +107,9 @@ SWEEP
 export VIBRISSA=$vibrissa
 timeout 60 sbatch --quiet --wait --array=1-3 --output="$work/job-%a.out" --mem-per-cpu=0 \
     "$root/deploy/slurm/sweep.sbatch" "$work/sweep.yaml" "$work/sharded"
-"$vibrissa" merge "$work/sharded" >/dev/null
+"$vibrissa" study merge "$work/sharded" >/dev/null
 "$vibrissa" sweep "$work/sweep.yaml" --out "$work/whole" >/dev/null 2>&1
-"$vibrissa" merge "$work/whole" --out "$work/in-order.jsonl" >/dev/null
+"$vibrissa" study merge "$work/whole" --out "$work/in-order.jsonl" >/dev/null
 
 # The times are those of the machine.
 results() { python3 -c '

@@ -1,4 +1,4 @@
-//! `vibrissa completions`
+//! `vibrissa setup completions`
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
@@ -8,10 +8,10 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 
-const EXAMPLE: &str = "Example:\n  vibrissa completions bash > ~/.local/share/bash-completion/completions/vibrissa\n\n\
+const EXAMPLE: &str = "Example:\n  vibrissa setup completions bash > ~/.local/share/bash-completion/completions/vibrissa\n\n\
                        Exit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa completions`.
+/// The arguments of `vibrissa setup completions`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CompletionsArguments {

@@ -1,4 +1,4 @@
-//! `vibrissa diff`
+//! `vibrissa inspect diff`
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,9 +20,9 @@ use crate::report::difference_tables;
 use crate::scene::Scene;
 use crate::trial::{Inputs, Trial};
 
-const EXAMPLE: &str = "Example:\n  vibrissa diff policies/thesis.fsm mine.fsm scenarios/box.yaml\n\nExit status: 0 the policies are equal in every tick; 1 they differ; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa inspect diff policies/thesis.fsm mine.fsm scenarios/box.yaml\n\nExit status: 0 the policies are equal in every tick; 1 they differ; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa diff`.
+/// The arguments of `vibrissa inspect diff`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct DiffArguments {

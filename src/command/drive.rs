@@ -68,7 +68,7 @@ pub(super) struct DriveArguments {
     /// configuration has its own calibrations
     #[arg(long, conflicts_with = "config")]
     uncalibrated: bool,
-    /// Record the run into this MCAP file, for `vibrissa keep` and `vibrissa replay`
+    /// Record the run into this MCAP file, for `vibrissa inspect keep` and `vibrissa replay`
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Write a picture and the result into this directory

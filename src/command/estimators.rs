@@ -1,4 +1,4 @@
-//! `vibrissa estimators`
+//! `vibrissa study estimators`
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -19,9 +19,9 @@ use crate::report::estimators_tables;
 use crate::study::estimators::{EstimatorRow, evaluate_all};
 use crate::trial::{Trial, in_parallel};
 
-const EXAMPLE: &str = "Example:\n  vibrissa estimators --world quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study estimators --world quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa estimators`.
+/// The arguments of `vibrissa study estimators`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct EstimatorsArguments {

@@ -1,4 +1,4 @@
-//! `vibrissa explain`
+//! `vibrissa inspect explain`
 
 use std::path::PathBuf;
 
@@ -15,9 +15,9 @@ use crate::load;
 use crate::mujoco::Pruning;
 use crate::results::Document;
 
-const EXAMPLE: &str = "Example:\n  vibrissa explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa inspect explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa explain`.
+/// The arguments of `vibrissa inspect explain`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct ExplainArguments {

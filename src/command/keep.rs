@@ -1,4 +1,4 @@
-//! `vibrissa keep`
+//! `vibrissa inspect keep`
 
 use std::path::{Path, PathBuf};
 
@@ -12,12 +12,12 @@ use super::values::parse_time;
 use crate::file::CommandFiles;
 use crate::load::{self, LoadError};
 
-const EXAMPLE: &str = "Example:\n  vibrissa keep run-00012-00000.mcap --at 12.3s --out caught.mcap\n\nExit status: 0 done; 1 the kept recording does not replay bit for bit on this computer; 2 unusable input; 3 internal error.";
+const EXAMPLE: &str = "Example:\n  vibrissa inspect keep run-00012-00000.mcap --at 12.3s --out caught.mcap\n\nExit status: 0 done; 1 the kept recording does not replay bit for bit on this computer; 2 unusable input; 3 internal error.";
 
 /// Time (s) after the stop that is kept, so that the loop recovers from most faults within it.
 const AFTER: f64 = 1.0;
 
-/// The arguments of `vibrissa keep`.
+/// The arguments of `vibrissa inspect keep`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct KeepArguments {

@@ -1,8 +1,8 @@
-//! `vibrissa man`
+//! `vibrissa setup man`
 
 use std::path::PathBuf;
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 
 use super::Arguments;
@@ -12,14 +12,14 @@ use super::output;
 use super::trials::make_directory;
 use crate::file::CommandFiles;
 
-const EXAMPLE: &str = "Example:\n  vibrissa man --out ~/.local/share/man/man1\n\n\
+const EXAMPLE: &str = "Example:\n  vibrissa setup man --out ~/.local/share/man/man1\n\n\
                        Exit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa man`.
+/// The arguments of `vibrissa setup man`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct ManArguments {
-    /// Directory of the pages: one of the program, and one of every command
+    /// Directory of the pages: one of the program, and one of every command, also of those within others
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
 }
@@ -28,12 +28,8 @@ pub(super) fn man(arguments: &ManArguments) -> Result<Exit, Failure> {
     make_directory(Some(&arguments.out))?;
     let mut program = Arguments::command();
     program.build();
-    let visible = program.get_subcommands().filter(|command| !command.is_hide_set() && command.get_name() != "help");
-    let commands = visible.map(|command| {
-        let name = format!("vibrissa-{}", command.get_name());
-        (name.clone(), command.clone().display_name(name))
-    });
-    let pages: Vec<_> = std::iter::once(("vibrissa".to_owned(), program.clone())).chain(commands).collect();
+    let mut pages = Vec::new();
+    add_pages("vibrissa", &program, &mut pages);
     let mut files = CommandFiles::new();
     for (name, command) in pages {
         let mut page = Vec::new();
@@ -42,4 +38,12 @@ pub(super) fn man(arguments: &ManArguments) -> Result<Exit, Failure> {
     }
     output::result(format_args!("manual: {}", arguments.out.display()))?;
     Ok(Exit::Done)
+}
+
+/// Adds a command with the name of its page, and the visible commands within it.
+fn add_pages(name: &str, command: &Command, pages: &mut Vec<(String, Command)>) {
+    pages.push((name.to_owned(), command.clone().display_name(name.to_owned())));
+    for inner in command.get_subcommands().filter(|inner| !inner.is_hide_set() && inner.get_name() != "help") {
+        add_pages(&format!("{name}-{}", inner.get_name()), inner, pages);
+    }
 }

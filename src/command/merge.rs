@@ -1,4 +1,4 @@
-//! `vibrissa merge`
+//! `vibrissa study merge`
 
 use std::path::{Path, PathBuf};
 
@@ -15,9 +15,9 @@ use crate::load::LoadError;
 use crate::results::Provenance;
 use crate::sweep::{Missing, SweepSummary, merge as merge_files};
 
-const EXAMPLE: &str = "Example:\n  vibrissa merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa merge`.
+/// The arguments of `vibrissa study merge`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct MergeArguments {

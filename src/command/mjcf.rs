@@ -1,4 +1,4 @@
-//! `vibrissa mjcf`
+//! `vibrissa inspect mjcf`
 
 use std::path::PathBuf;
 
@@ -11,9 +11,9 @@ use crate::file::CommandFiles;
 use crate::load;
 use crate::trial::model;
 
-const EXAMPLE: &str = "Example:\n  vibrissa mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa inspect mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa mjcf`.
+/// The arguments of `vibrissa inspect mjcf`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct MjcfArguments {

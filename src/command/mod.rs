@@ -16,6 +16,7 @@ mod failure;
 mod families;
 mod fmt;
 mod graph;
+mod groups;
 mod inspect;
 mod keep;
 #[cfg(feature = "live")]
@@ -52,14 +53,16 @@ mod watch;
 mod worker;
 mod worlds;
 
+use std::ffi::OsString;
 use std::panic::catch_unwind;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 
 use crate::diagnostic::printable;
 
 use exit::Exit;
+use groups::{Inspect, Setup, Study};
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
 #[derive(Debug, Parser)]
@@ -74,24 +77,6 @@ const EXIT_STATUS: &str = "Exit status: 0 done and all expectations held; 1 an e
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run scenarios and score the estimated contours
-    Run(run::RunArguments),
-    /// Run the ten scenes of the bench and compare the figures with those of the baseline
-    Bench(bench::BenchArguments),
-    /// Run random scenes of families
-    Families(families::FamiliesArguments),
-    /// Compare policies over the same runs
-    Compare(compare::CompareArguments),
-    /// Find the first tick in which two policies differ, and why
-    Diff(diff::DiffArguments),
-    /// List how closely transitions that were not taken came to being taken
-    NearMisses(near_misses::NearMissArguments),
-    /// Run a parameter sweep in worker processes. An interrupted sweep can be resumed
-    Sweep(sweep::SweepArguments),
-    /// Tune parameters of a policy over scenes. An interrupted tuning can be resumed
-    Tune(tune::TuneArguments),
-    /// Merge the results of the parts of a sweep
-    Merge(merge::MergeArguments),
     /// Check policies and describe their machines
     Check(check::CheckArguments),
     /// Format policies in place
@@ -100,42 +85,41 @@ enum Command {
     Test(test::TestArguments),
     /// Compile a policy into a file that runs without its text
     Compile(compile::CompileArguments),
+    /// Draw the statechart of a policy
+    Graph(graph::GraphArguments),
+    /// Run scenarios and score the estimated contours
+    Run(run::RunArguments),
+    /// Run the ten scenes of the bench and compare the figures with those of the baseline
+    Bench(bench::BenchArguments),
+    /// Run random scenes of families
+    Families(families::FamiliesArguments),
+    /// Compare policies over the same runs
+    Compare(compare::CompareArguments),
+    /// Run a parameter sweep in worker processes. An interrupted sweep can be resumed
+    Sweep(sweep::SweepArguments),
+    /// Tune parameters of a policy over scenes. An interrupted tuning can be resumed
+    Tune(tune::TuneArguments),
+    /// Study the simulators and the contact estimators, or merge the parts of a sweep
+    #[command(subcommand)]
+    Study(Study),
+    /// Look inside runs, scenarios and recordings
+    #[command(subcommand)]
+    Inspect(Inspect),
+    /// Calibrate the contact estimators of a whisker
+    Calibrate(calibrate::CalibrateArguments),
     /// Drive an array by a compiled machine: a simulated one through emulated sensors, or that of the robot
     Drive(drive::DriveArguments),
     /// Send a signed machine to a robot, which verifies it and drives it at its next start
     Push(push::PushArguments),
-    /// Write the files of the services that store and show the telemetry of a robot
-    Services(services::ServicesArguments),
-    /// Keep the part of a recording until a stop, as a test that `replay` repeats
-    Keep(keep::KeepArguments),
     /// Repeat a recorded run through driver, perception and machine, and compare every result bit for bit
     Replay(replay::ReplayArguments),
-    /// Draw the statechart of a policy
-    Graph(graph::GraphArguments),
-    /// Calibrate the contact estimators of a whisker
-    Calibrate(calibrate::CalibrateArguments),
-    /// Compare contact estimators on the samples of the same runs
-    Estimators(estimators::EstimatorsArguments),
-    /// Compare other simulations with MuJoCo along the same paths
-    Worlds(worlds::WorldsArguments),
-    /// Measure run times
-    Timing(timing::TimingArguments),
-    /// Measure run time against error over the settings of a simulation
-    Pareto(pareto::ParetoArguments),
-    /// Run stress tests of the simulators, and find the largest stable steps
-    Stress(stress::StressArguments),
-    /// Print the MuJoCo model of a scenario
-    Mjcf(mjcf::MjcfArguments),
-    /// List the parts of a scenario that a run omits, with the reasons
-    Explain(explain::ExplainArguments),
+    /// Write files for a shell, a manual or the services of a robot
+    #[command(subcommand)]
+    Setup(Setup),
     /// Serve an editor over standard input and output (language server protocol)
-    // It says how to get one where there is none, and is not offered there.
-    #[cfg_attr(not(feature = "lsp"), command(hide = true))]
+    // An editor starts it, so people need not see it.
+    #[command(hide = true)]
     Lsp,
-    /// Print a completion script for a shell
-    Completions(completions::CompletionsArguments),
-    /// Write manual pages
-    Man(man::ManArguments),
     /// Run the runs of a sweep, or stress tests, that standard input asks for
     #[command(hide = true)]
     Worker(worker::WorkerArguments),
@@ -157,32 +141,21 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Bench(arguments) => bench::bench(arguments),
         Command::Families(arguments) => families::families(arguments),
         Command::Compare(arguments) => compare::compare(arguments),
-        Command::Diff(arguments) => diff::diff(arguments),
-        Command::NearMisses(arguments) => near_misses::near_misses(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Tune(arguments) => tune::tune(arguments),
-        Command::Merge(arguments) => merge::merge(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Fmt(arguments) => fmt::fmt(arguments),
         Command::Test(arguments) => test::test(arguments),
         Command::Compile(arguments) => compile::compile(arguments),
         Command::Drive(arguments) => drive::drive(arguments),
         Command::Push(arguments) => push::push(arguments),
-        Command::Services(arguments) => services::services(arguments),
-        Command::Keep(arguments) => keep::keep(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
+        Command::Study(study) => study.run(),
+        Command::Inspect(inspect) => inspect.run(),
+        Command::Setup(setup) => setup.run(),
         Command::Calibrate(arguments) => calibrate::calibrate(arguments),
-        Command::Estimators(arguments) => estimators::estimators(arguments),
-        Command::Worlds(arguments) => worlds::worlds(arguments),
-        Command::Timing(arguments) => timing::timing(arguments),
-        Command::Pareto(arguments) => pareto::pareto(arguments),
-        Command::Stress(arguments) => stress::stress(arguments),
-        Command::Mjcf(arguments) => mjcf::mjcf(arguments),
-        Command::Explain(arguments) => explain::explain(arguments),
         Command::Lsp => lsp::lsp(),
-        Command::Completions(arguments) => completions::completions(arguments),
-        Command::Man(arguments) => man::man(arguments),
         Command::Worker(arguments) => worker::worker(arguments),
     };
     done.unwrap_or_else(|failure| {
@@ -193,13 +166,21 @@ fn carried_out(arguments: &Arguments) -> Exit {
 
 /// Reads the command line. Requests for help and mistakes are answered here. Then the result is the exit status.
 fn arguments() -> Result<Arguments, ExitCode> {
+    if let Some(new) = std::env::args_os().nth(1).and_then(|name| groups::new_name(&name)) {
+        output::error(format_args!("this command is now `vibrissa {new}`"));
+        return Err(Exit::Unusable.into());
+    }
     let words = std::env::args_os();
     #[cfg(feature = "live")]
     let words = live::joined(words);
-    Arguments::try_parse_from(words).map_err(|answer| {
+    let parsed = |words: &mut dyn Iterator<Item = OsString>| {
+        let matches = groups::program().try_get_matches_from(words)?;
+        Arguments::from_arg_matches(&matches)
+    };
+    parsed(&mut words.into_iter()).map_err(|answer| {
         // The answer quotes the command line and has its own colours, so control characters are removed before.
-        let shown = std::env::args_os().map(|argument| printable(&argument.to_string_lossy()).into_owned());
-        let shown = Arguments::try_parse_from(shown).err();
+        let shown = std::env::args_os().map(|argument| printable(&argument.to_string_lossy()).into_owned().into());
+        let shown = parsed(&mut shown.into_iter()).err();
         let _ = shown.as_ref().unwrap_or(&answer).print();
         ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or_default())
     })

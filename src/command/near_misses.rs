@@ -1,4 +1,4 @@
-//! `vibrissa near-misses`
+//! `vibrissa inspect near-misses`
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,9 +23,9 @@ use crate::report::near_miss_table;
 use crate::sweep::Plan;
 use crate::trial::{ExecuteError, Trial, in_parallel};
 
-const EXAMPLE: &str = "Examples:\n  vibrissa near-misses --policy mine.fsm --out out\n  vibrissa near-misses --sweep sweeps/corners.yaml\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Examples:\n  vibrissa inspect near-misses --policy mine.fsm --out out\n  vibrissa inspect near-misses --sweep sweeps/corners.yaml\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa near-misses`.
+/// The arguments of `vibrissa inspect near-misses`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct NearMissArguments {

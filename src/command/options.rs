@@ -100,7 +100,7 @@ impl WorldOption {
 /// The pruning of a run.
 #[derive(Debug, Args)]
 pub(super) struct PruneOption {
-    /// Simulate every part of the scene. By default, parts without effect are omitted (`vibrissa explain` lists them)
+    /// Simulate every part of the scene. By default, parts without effect are omitted (`vibrissa inspect explain` lists them)
     #[arg(long)]
     pub(super) no_prune: bool,
 }

@@ -1,4 +1,4 @@
-//! `vibrissa pareto`
+//! `vibrissa study pareto`
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,9 +22,9 @@ use crate::results::{Document, Provenance};
 use crate::study::pareto::{Pareto, Setting, measure};
 use crate::trial::{Trial, check_world};
 
-const EXAMPLE: &str = "Example:\n  vibrissa pareto scenarios/box.yaml --repeats 5 --out out\n  vibrissa pareto --policy policies/thesis.fsm --mismatch scenarios/mismatch/hard.yaml\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study pareto scenarios/box.yaml --repeats 5 --out out\n  vibrissa study pareto --policy policies/thesis.fsm --mismatch scenarios/mismatch/hard.yaml\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa pareto`.
+/// The arguments of `vibrissa study pareto`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct ParetoArguments {

@@ -1,4 +1,4 @@
-//! `vibrissa services`
+//! `vibrissa setup services`
 
 use std::path::PathBuf;
 
@@ -14,14 +14,14 @@ use crate::file::CommandFiles;
 use crate::load::{self, LoadError};
 use crate::services::{lines_of_messages, service_files};
 
-const EXAMPLE: &str = "Example:\n  vibrissa services generate thesis.machine --config array.yaml --out services\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
-const LINES_EXAMPLE: &str = "Example:\n  mosquitto_sub -t 'vibrissa/#' -F '%U %t %p' > messages.txt\n  vibrissa services lines messages.txt | curl --data-binary @- 'http://localhost:8086/write?db=vibrissa'\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa setup services generate thesis.machine --config array.yaml --out services\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
+const LINES_EXAMPLE: &str = "Example:\n  mosquitto_sub -t 'vibrissa/#' -F '%U %t %p' > messages.txt\n  vibrissa setup services lines messages.txt | curl --data-binary @- 'http://localhost:8086/write?db=vibrissa'\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 /// Name of a robot without a configuration.
 const ROBOT: &str = "array";
 /// Largest size of a file with messages (bytes).
 const MESSAGES_LIMIT: usize = 1 << 30;
 
-/// The arguments of `vibrissa services`.
+/// The arguments of `vibrissa setup services`.
 #[derive(Debug, Args)]
 pub(super) struct ServicesArguments {
     #[command(subcommand)]

@@ -1,4 +1,4 @@
-//! `vibrissa stress`
+//! `vibrissa study stress`
 
 use std::ops::ControlFlow;
 use std::process::Command;
@@ -16,9 +16,9 @@ use crate::scene::WorldKind;
 use crate::study::stress::{StressRow, StressTask};
 use crate::trial::{Answer, StartError, Worker, answer, check_world, engine_version, stream_in_parallel};
 
-const EXAMPLE: &str = "Example:\n  vibrissa stress --jobs 2\n\nExit status: 0 every case had a regular outcome and finite numbers; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study stress --jobs 2\n\nExit status: 0 every case had a regular outcome and finite numbers; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa stress`.
+/// The arguments of `vibrissa study stress`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct StressArguments {

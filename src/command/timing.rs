@@ -1,4 +1,4 @@
-//! `vibrissa timing`
+//! `vibrissa study timing`
 
 use clap::Args;
 
@@ -15,9 +15,9 @@ use crate::file::CommandFiles;
 use crate::report::timing_table;
 use crate::study::timing::{Timing, TimingRow};
 
-const EXAMPLE: &str = "Example:\n  vibrissa timing --repeats 5\n\nExit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study timing --repeats 5\n\nExit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa timing`.
+/// The arguments of `vibrissa study timing`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct TimingArguments {

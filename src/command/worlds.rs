@@ -1,4 +1,4 @@
-//! `vibrissa worlds`
+//! `vibrissa study worlds`
 
 use std::sync::Arc;
 
@@ -19,9 +19,9 @@ use crate::scene::{Scene, WorldKind};
 use crate::study::worlds::{Simulation, compare_worlds};
 use crate::trial::{check_world, in_parallel};
 
-const EXAMPLE: &str = "Example:\n  vibrissa worlds --against quasistatic,peer_cable\n\nExit status: 0 done, however far the worlds differ; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study worlds --against quasistatic,peer_cable\n\nExit status: 0 done, however far the worlds differ; 2 unusable input; 3 internal error; 130 interrupted.";
 
-/// The arguments of `vibrissa worlds`.
+/// The arguments of `vibrissa study worlds`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct WorldsArguments {

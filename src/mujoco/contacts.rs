@@ -22,7 +22,7 @@ pub(super) enum Contacts {
     /// Explicit pairs. With masks, the engine would test every pair of bodies in every step, which takes a seventh of
     /// the time. A pruned model always has explicit pairs. They are few and change during the run.
     Pairs,
-    /// Masks of the geoms, for a complete model (`--no-prune`, `vibrissa mjcf`) with too many pairs. The engine keeps
+    /// Masks of the geoms, for a complete model (`--no-prune`, `vibrissa inspect mjcf`) with too many pairs. The engine keeps
     /// the parts of all solids in one bounding volume tree and queries it for each link.
     Masks,
 }

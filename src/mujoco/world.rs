@@ -21,7 +21,7 @@ const INITIAL_CAPACITY: usize = 64;
 #[derive(Debug, thiserror::Error)]
 pub enum MujocoError {
     /// MuJoCo rejected the generated model.
-    #[error("MuJoCo refused the generated model: {0}; `vibrissa mjcf` prints the model")]
+    #[error("MuJoCo refused the generated model: {0}; `vibrissa inspect mjcf` prints the model")]
     Model(String),
     /// A link of a shaft has less inertia than MuJoCo simulates.
     #[error(

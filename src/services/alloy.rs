@@ -14,7 +14,7 @@ pub(super) fn configuration(program: &Program, robot: &str) -> String {
     let states = states.join("|");
     let machine = &program.name;
     format!(
-        r#"// Alloy reads the journal and sends the lines of Vibrissa and of its services to Loki. `vibrissa services generate` has made this
+        r#"// Alloy reads the journal and sends the lines of Vibrissa and of its services to Loki. `vibrissa setup services generate` has made this
 // file for the machine {machine}: its states and the kinds of faults are labels.
 
 discovery.relabel "journal" {{

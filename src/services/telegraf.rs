@@ -5,7 +5,7 @@ use std::fmt::Write;
 use vibrissa_robot::telemetry::{Field, FieldKind, MEASUREMENTS, Measurement, Topic};
 
 const HEAD: &str = "\
-# Telegraf reads the telemetry from the broker and writes it to InfluxDB. `vibrissa services generate` has made this file.
+# Telegraf reads the telemetry from the broker and writes it to InfluxDB. `vibrissa setup services generate` has made this file.
 # A point has the time of its message, also if the message had to wait for the broker.
 
 [agent]

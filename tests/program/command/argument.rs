@@ -8,13 +8,26 @@ use super::program::{ROOT, bad, directory, stderr, stdout, vibrissa};
 fn help_explains_every_command() {
     let help = stdout(&vibrissa(&["--help"]));
     for command in
-        ["run", "bench", "calibrate", "compare", "families", "check", "compile", "graph", "test", "fmt", "lsp", "mjcf"]
+        ["run", "bench", "calibrate", "check", "study", "study stress", "inspect", "inspect mjcf", "setup man"]
     {
+        let words: Vec<_> = command.split(' ').collect();
         let is_offered = help.lines().any(|line| line.trim_start().starts_with(&format!("{command} ")));
-        assert_eq!(is_offered, command != "lsp" || cfg!(feature = "lsp"), "{command}");
-        let output = vibrissa(&[command, "--help"]);
+        assert_eq!(is_offered, words.len() == 1, "{command}");
+        let output = vibrissa(&[&words, &["--help"][..]].concat());
         assert_eq!(output.status.code(), Some(0));
         assert!(stdout(&output).contains("Usage:"));
+    }
+    for heading in ["Write policies:", "Run them:", "Look inside:", "Sensors:", "Robot:"] {
+        assert!(help.lines().any(|line| line == heading), "{heading}: {help}");
+    }
+}
+
+#[test]
+fn the_old_name_of_a_command_is_answered_with_the_new_one() {
+    for (old, new) in [("diff", "inspect diff"), ("timing", "study timing"), ("services", "setup services")] {
+        let output = vibrissa(&[old, "anything"]);
+        assert_eq!(output.status.code(), Some(2), "{old}");
+        assert!(stderr(&output).contains(&format!("this command is now `vibrissa {new}`")), "{}", stderr(&output));
     }
 }
 
@@ -100,7 +113,7 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
         (vec!["compare", "a.fsm", "b.fsm", "--jitter", "10 m", "--jitter-heading", "180 deg"], "cannot read a.fsm"),
         (vec!["fmt"], "POLICY"),
         (vec!["fmt", "policies/nothing.fsm"], "cannot read policies/nothing.fsm"),
-        (vec!["mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
+        (vec!["inspect", "mjcf", "policies/thesis.fsm"], "policies/thesis.fsm:"),
         (vec!["graph", "scenarios/disk.yaml"], "scenarios/disk.yaml:"),
         (vec!["graph", "policies/thesis.fsm", "-o", "policies/nothing/chart.svg"], "policies/nothing/chart.svg"),
     ] {
@@ -114,20 +127,22 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
 #[test]
 fn every_count_is_refused_with_its_range_which_the_help_states() {
     for (command, count, range) in [
-        ("timing", "--repeats", "from 1 to 1000"),
+        ("study timing", "--repeats", "from 1 to 1000"),
         ("bench", "--jobs", "from 1 to "),
-        ("pareto", "--repeats", "from 1 to 1000"),
+        ("study pareto", "--repeats", "from 1 to 1000"),
         ("compare", "--seeds", "from 1 to 100000"),
         ("compare", "-j", "from 1 to "),
         ("families", "--count", "from 1 to 100000"),
         ("sweep", "-j", "from 1 to "),
-        ("stress", "--jobs", "from 1 to "),
+        ("study stress", "--jobs", "from 1 to "),
         ("graph", "--depth", "from 1 to 8"),
     ] {
-        let help = stdout(&vibrissa(&[command, "--help"])).split_whitespace().collect::<Vec<_>>().join(" ");
+        let words: Vec<_> = command.split(' ').collect();
+        let help =
+            stdout(&vibrissa(&[&words, &["--help"][..]].concat())).split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(help.contains(range), "{command} {count}: {help}");
         for value in ["0", "-1", "1.5", "some", "", "18446744073709551615", "18446744073709551616"] {
-            let output = vibrissa(&[command, count, value]);
+            let output = vibrissa(&[&words, &[count, value][..]].concat());
             let told = stderr(&output);
             assert_eq!(output.status.code(), Some(2), "{command} {count} {value}: {told}");
             assert!(told.contains(&format!("write a whole number {range}")), "{command} {count} {value}: {told}");
@@ -157,7 +172,7 @@ fn a_file_without_end_or_of_another_kind_is_refused_with_its_name_and_exit_statu
         ("/dev/zero", "it is a device"),
         ("tests/fixtures/latin1.txt", "the byte 0xB5 in line 1, column 20 is invalid"),
     ] {
-        for arguments in [vec!["check", file], vec!["mjcf", file], vec!["run", file]] {
+        for arguments in [vec!["check", file], vec!["inspect", "mjcf", file], vec!["run", file]] {
             let output = vibrissa(&arguments);
             assert_eq!(output.status.code(), Some(2), "{arguments:?}");
             let message = stderr(&output);

@@ -50,7 +50,7 @@ fn touches_from_a_file_become_a_calibration_a_picture_and_a_table() {
          start: {position: [0 mm, 72 mm], heading: 90 deg}\nstop: {time: 1 s}\n",
     )
     .unwrap();
-    let output = vibrissa(&["mjcf", &scenario.display().to_string()]);
+    let output = vibrissa(&["inspect", "mjcf", &scenario.display().to_string()]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 

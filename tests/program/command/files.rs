@@ -79,8 +79,8 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("compile @/quick.fsm -o @/OUT", "laws.fsm", "OUT", "--out"),
     ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "quick.fsm", "OUT", "--record"),
     ("drive @/quick.fsm --emulate @/scene.yaml --record @/OUT", "scene.yaml", "OUT", "--record"),
-    ("services generate @/quick.fsm --out @", "quick.fsm", "env.example", "--out"),
-    ("services generate @/quick.fsm --out @ --config @/array.yaml", "array.yaml", "compose.yaml", "--out"),
+    ("setup services generate @/quick.fsm --out @", "quick.fsm", "env.example", "--out"),
+    ("setup services generate @/quick.fsm --out @ --config @/array.yaml", "array.yaml", "compose.yaml", "--out"),
     ("calibrate @/measured.csv --out @", "measured.csv", "sets.csv", "--out"),
     ("calibrate --touches @/pressed.csv --out @", "pressed.csv", "touches.csv", "--out"),
     ("calibrate --touches @/pressed.csv --out @", "pressed.csv", "l0.yaml", "--out"),
@@ -108,11 +108,21 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
         "results.jsonl",
         "--out",
     ),
-    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "scene.yaml", "scene-quick-pareto.json", "--out"),
-    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "laws.fsm", "scene-quick-pareto.svg", "--out"),
+    (
+        "study pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @",
+        "scene.yaml",
+        "scene-quick-pareto.json",
+        "--out",
+    ),
+    (
+        "study pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @",
+        "laws.fsm",
+        "scene-quick-pareto.svg",
+        "--out",
+    ),
     ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @", "laws.fsm", "results.jsonl", "--out"),
     ("tune @/quick.fsm --scene polygon --count 1 --runs 9 --out @ --write @/OUT", "quick.fsm", "OUT", "--write"),
-    ("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "quick.fsm", "index.html", "--out"),
+    ("study pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @", "quick.fsm", "index.html", "--out"),
     ("sweep @/small.yaml --out @", "small.yaml", "results.jsonl", "--out"),
     ("sweep @/small.yaml --out @", "quick.fsm", "index.html", "--out"),
     ("sweep @/small.yaml --out @", "quick.fsm", "results.jsonl", "--out"),
@@ -175,17 +185,17 @@ fn merge_writes_to_none_of_its_inputs() {
     symlink(folder.join("results.jsonl"), folder.join("link.jsonl")).unwrap();
     fs::hard_link(folder.join("results.jsonl"), folder.join("hard.jsonl")).unwrap();
     for line in [
-        "merge @/results.jsonl",
-        "merge @",
-        "merge @/results.jsonl --out @/link.jsonl",
-        "merge @/link.jsonl --out @/hard.jsonl",
+        "study merge @/results.jsonl",
+        "study merge @",
+        "study merge @/results.jsonl --out @/link.jsonl",
+        "study merge @/link.jsonl --out @/hard.jsonl",
     ] {
         let refused = in_folder(&folder, line);
         assert_eq!(refused.status.code(), Some(2), "{line}: {}", stderr(&refused));
         assert!(stderr(&refused).contains("this command reads it as"), "{line}: {}", stderr(&refused));
     }
     assert_eq!(text(&folder, "results.jsonl"), before);
-    assert_eq!(in_folder(&folder, "merge @ --out @/merged.jsonl").status.code(), Some(0));
+    assert_eq!(in_folder(&folder, "study merge @ --out @/merged.jsonl").status.code(), Some(0));
     assert_eq!(text(&folder, "merged.jsonl").lines().count(), before.lines().count());
 }
 
@@ -196,7 +206,7 @@ fn merge_follows_a_link_to_results_and_says_why_others_will_not_do() {
     fs::create_dir(folder.join("linked")).unwrap();
     let results = folder.join("linked/results.jsonl");
     let merge = |words: &str| {
-        let output = in_folder(&folder, &format!("merge @/linked --out @/merged.jsonl{words}"));
+        let output = in_folder(&folder, &format!("study merge @/linked --out @/merged.jsonl{words}"));
         (output.status.code(), stderr(&output))
     };
     assert!(merge("").1.contains("there are no results of a sweep"));
@@ -344,7 +354,7 @@ fn a_pipe_that_nobody_reads_is_refused_before_the_first_run() {
         ("run @/scene.yaml --ticks @/pipe", "pipe"),
         ("drive @/quick.fsm --emulate @/scene.yaml --record @/pipe", "pipe"),
         ("run @/scene.yaml --out @", "scene.svg"),
-        ("merge @/done --out @/pipe", "pipe"),
+        ("study merge @/done --out @/pipe", "pipe"),
         ("calibrate @/measured.csv --out @", "profile.svg"),
     ] {
         let pipe = folder.join(name);

@@ -1,4 +1,4 @@
-//! `vibrissa graph` and `vibrissa mjcf`
+//! `vibrissa graph` and `vibrissa inspect mjcf`
 
 use super::program::{directory, stderr, stdout, vibrissa};
 
@@ -19,7 +19,7 @@ fn graph_prints_or_writes_a_statechart() {
 
 #[test]
 fn mjcf_prints_the_model() {
-    let output = vibrissa(&["mjcf", "scenarios/disk.yaml"]);
+    let output = vibrissa(&["inspect", "mjcf", "scenarios/disk.yaml"]);
     assert_eq!(output.status.code(), Some(0));
     let model = stdout(&output);
     assert!(model.starts_with("<mujoco") && model.contains(r#"type="cylinder""#));

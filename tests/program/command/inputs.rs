@@ -13,16 +13,16 @@ const READ: &[(&str, &str)] = &[
     ("run @/scene.yaml", "laws.fsm"),
     ("run @/scene.yaml", "r0.yaml"),
     ("run @/scene.yaml --policy @/quick.fsm", "quick.fsm"),
-    ("explain @/scene.yaml", "scene.yaml"),
-    ("mjcf @/scene.yaml", "scene.yaml"),
-    ("mjcf @/scene.yaml", "r0.yaml"),
+    ("inspect explain @/scene.yaml", "scene.yaml"),
+    ("inspect mjcf @/scene.yaml", "scene.yaml"),
+    ("inspect mjcf @/scene.yaml", "r0.yaml"),
     ("bench --policy @/quick.fsm", "quick.fsm"),
     ("calibrate @/measured.csv", "measured.csv"),
     ("calibrate --touches @/pressed.csv", "pressed.csv"),
     ("calibrate @/measured.csv --rig @/scene.yaml", "scene.yaml"),
     ("compare @/quick.fsm @/quick.fsm", "quick.fsm"),
     ("compare @/quick.fsm @/quick.fsm @/scene.yaml", "scene.yaml"),
-    ("pareto @/scene.yaml", "scene.yaml"),
+    ("study pareto @/scene.yaml", "scene.yaml"),
     ("families --policy @/quick.fsm", "quick.fsm"),
     ("sweep @/small.yaml --out @/out", "small.yaml"),
     ("sweep @/small.yaml --out @/out", "quick.fsm"),
@@ -30,7 +30,7 @@ const READ: &[(&str, &str)] = &[
     ("sweep @/small.yaml --out @/out", "scene.yaml"),
     ("sweep @/small.yaml --out @/out", "r0.yaml"),
     ("sweep @/small.yaml --out @", "results.jsonl"),
-    ("merge @/results.jsonl", "results.jsonl"),
+    ("study merge @/results.jsonl", "results.jsonl"),
     ("check @/quick.fsm", "quick.fsm"),
     ("check @/quick.fsm", "laws.fsm"),
     ("compile @/quick.fsm -o @/quick.machine", "quick.fsm"),
@@ -38,7 +38,7 @@ const READ: &[(&str, &str)] = &[
     ("graph @/quick.fsm", "laws.fsm"),
     ("test @/quick.fsm", "scene.yaml"),
     ("replay @/run.mcap", "run.mcap"),
-    ("keep @/run.mcap --at 1s --out @/kept.mcap", "run.mcap"),
+    ("inspect keep @/run.mcap --at 1s --out @/kept.mcap", "run.mcap"),
     ("fmt @/quick.fsm", "quick.fsm"),
 ];
 
@@ -54,7 +54,7 @@ fn what_is_no_regular_file_is_refused_wherever_a_file_is_read() {
             let mut words = make.split(' ');
             assert!(Command::new(words.next().unwrap()).args(words).arg(&path).status().unwrap().success());
             // A directory of results is one that is looked into.
-            if (line, kind) != ("merge @/results.jsonl", "a directory") {
+            if (line, kind) != ("study merge @/results.jsonl", "a directory") {
                 let refused = in_folder(&folder, line);
                 let told = stderr(&refused) + &stdout(&refused);
                 assert_eq!(refused.status.code(), Some(2), "{line}, {name} is {kind}: {told}");
@@ -86,7 +86,7 @@ fn a_file_larger_than_any_of_its_kind_is_not_read_to_its_end() {
         ("sweep @/large.yaml --out @/out", "large.yaml", "it is larger than 1 MiB"),
         ("calibrate @/large.csv", "large.csv", "it is larger than 1 MiB"),
         ("replay @/large.mcap", "large.mcap", "it is no MCAP file"),
-        ("merge @/large.jsonl", "large.jsonl", "line 1 is longer than 16 MiB"),
+        ("study merge @/large.jsonl", "large.jsonl", "line 1 is longer than 16 MiB"),
         ("run @/scene.yaml", "r0.yaml", "it is not a calibration"),
         ("check @/quick.fsm", "laws.fsm", "it is larger than 1 MiB"),
     ] {
@@ -110,7 +110,7 @@ fn a_line_of_results_that_is_too_long_is_told_with_its_place() {
     let length = fs::metadata(&results).unwrap().len();
     let file = fs::OpenOptions::new().write(true).open(&results).unwrap();
     file.set_len(length + (1 << 40)).unwrap();
-    for line in ["sweep @/small.yaml --out @", "merge @/results.jsonl --out @/merged.jsonl"] {
+    for line in ["sweep @/small.yaml --out @", "study merge @/results.jsonl --out @/merged.jsonl"] {
         let refused = in_folder(&folder, line);
         let told = stderr(&refused);
         assert_eq!(refused.status.code(), Some(2), "{line}: {told}");

@@ -1,4 +1,4 @@
-//! `vibrissa run --break`, `--transitions`, and `vibrissa diff`
+//! `vibrissa run --break`, `--transitions`, and `vibrissa inspect diff`
 
 use serde_json::Value;
 
@@ -45,7 +45,8 @@ fn a_compiled_machine_has_no_guards_to_show() {
 #[test]
 fn diff_has_exit_status_1_for_policies_that_differ() {
     let diff = |other: &str| {
-        let arguments = ["diff", "policies/thesis.fsm", other, "scenarios/box.yaml", "--world", "quasistatic"];
+        let arguments =
+            ["inspect", "diff", "policies/thesis.fsm", other, "scenarios/box.yaml", "--world", "quasistatic"];
         let output = vibrissa(&arguments);
         (output.status.code(), stdout(&output))
     };

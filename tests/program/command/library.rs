@@ -43,14 +43,17 @@ fn run(directory: &Path, arguments: &[&str]) -> Output {
 #[test]
 fn without_mujocos_library_all_works_that_does_not_need_it_and_the_rest_says_what_to_do() {
     let Some(directory) = elsewhere("no-library") else { return };
-    for arguments in [&["check", "brief.fsm"][..], &["fmt", "--check", "brief.fsm"], &["mjcf", "scene.yaml"]] {
+    for arguments in [&["check", "brief.fsm"][..], &["fmt", "--check", "brief.fsm"], &["inspect", "mjcf", "scene.yaml"]]
+    {
         let output = run(&directory, arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
     }
     let output = run(&directory, &["run", "scene.yaml", "--world", "quasistatic", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).contains("\"outcome\": \"completed\""), "{}", stdout(&output));
-    for arguments in [&["run", "scene.yaml"][..], &["run", "cable.yaml"], &["stress"], &["bench"], &["calibrate"]] {
+    for arguments in
+        [&["run", "scene.yaml"][..], &["run", "cable.yaml"], &["study", "stress"], &["bench"], &["calibrate"]]
+    {
         let output = run(&directory, arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
         let told = stderr(&output);

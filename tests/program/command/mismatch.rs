@@ -256,9 +256,9 @@ fn a_seed_without_effect_is_an_error() {
         &compare,
         &test,
         &["families", "--count", "1"],
-        &["estimators"],
-        &["pareto"],
-        &["diff", "policies/bang.fsm", "policies/thesis.fsm"],
+        &["study", "estimators"],
+        &["study", "pareto"],
+        &["inspect", "diff", "policies/bang.fsm", "policies/thesis.fsm"],
         &["calibrate", "--self"],
     ] {
         refused(command, &["--mismatch-seed", "3", "--mismatch", &fixed], "--mismatch-seed");

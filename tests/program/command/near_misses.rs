@@ -1,4 +1,4 @@
-//! `vibrissa near-misses`
+//! `vibrissa inspect near-misses`
 
 use std::fs;
 
@@ -37,7 +37,7 @@ fn a_guard_that_was_almost_enabled_is_listed_and_one_that_was_enabled_is_not() {
     fs::write(&scene, SCENE).unwrap();
     fs::write(&policy, POLICY).unwrap();
     let [scene, policy, out] = [&scene, &policy, &out].map(|path| path.to_str().unwrap());
-    let output = vibrissa(&["near-misses", scene, "--policy", policy, "--out", out, "--json"]);
+    let output = vibrissa(&["inspect", "near-misses", scene, "--policy", policy, "--out", out, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let listed: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let listed = listed.as_array().unwrap();
@@ -71,7 +71,7 @@ fn every_scenario_is_run_under_its_own_policy_unless_one_is_given() {
     }
     let scenes = ["one.yaml", "two.yaml", "three.yaml"].map(file);
     let listed = |arguments: &[&str]| {
-        let output = vibrissa(&[&["near-misses", "--json"], arguments].concat());
+        let output = vibrissa(&[&["inspect", "near-misses", "--json"], arguments].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let listed: Value = serde_json::from_str(&stdout(&output)).unwrap();
         let of =
@@ -100,7 +100,8 @@ fn the_runs_of_a_sweep_are_taken_together() {
     .unwrap();
     let sweep = "name: speeds\nscenes: [{scenario: still.yaml}]\npolicies: [m.fsm]\nvary: {policy: {speed: [30 mm/s, 55 mm/s]}}\n";
     fs::write(folder.join("sweep.yaml"), sweep).unwrap();
-    let output = vibrissa(&["near-misses", "--sweep", folder.join("sweep.yaml").to_str().unwrap(), "--json"]);
+    let output =
+        vibrissa(&["inspect", "near-misses", "--sweep", folder.join("sweep.yaml").to_str().unwrap(), "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let listed: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let coming = listed.as_array().unwrap().iter().find(|miss| miss["state"] == "Coming").unwrap();

@@ -71,13 +71,13 @@ fn a_recorded_run_replays_bit_for_bit_and_a_part_of_it_is_kept() {
     assert!(shown.contains("bit-identical") && shown.contains("sensor_stale"), "{shown}");
 
     // By default, the recording is kept until one second after its first stop.
-    let output = in_folder(&folder, "keep @/run.mcap --out @/kept.mcap");
+    let output = in_folder(&folder, "inspect keep @/run.mcap --out @/kept.mcap");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let kept = replayed(&folder, "kept.mcap");
     let stopped = whole["faults"][0]["reacted_s"].as_f64().unwrap();
     assert!((kept["end_s"].as_f64().unwrap() - stopped - 1.0).abs() < 0.05, "{kept}");
     assert_eq!(kept["faults"], whole["faults"]);
-    let output = in_folder(&folder, "keep @/run.mcap --at 0.5s --out @/early.mcap");
+    let output = in_folder(&folder, "inspect keep @/run.mcap --at 0.5s --out @/early.mcap");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(replayed(&folder, "early.mcap")["faults"], Value::Array(Vec::new()));
 }
@@ -85,12 +85,12 @@ fn a_recorded_run_replays_bit_for_bit_and_a_part_of_it_is_kept() {
 #[test]
 fn a_time_without_a_recording_and_a_run_without_a_stop_are_refused() {
     let folder = recorded("not-kept");
-    assert_eq!(in_folder(&folder, "keep @/run.mcap --at 0.5s --out @/early.mcap").status.code(), Some(0));
+    assert_eq!(in_folder(&folder, "inspect keep @/run.mcap --at 0.5s --out @/early.mcap").status.code(), Some(0));
     for (line, reason) in [
-        ("keep @/run.mcap --at 100s --out @/kept.mcap", "the recording ends at"),
-        ("keep @/early.mcap --out @/kept.mcap", "no fault has stopped the robot"),
-        ("keep @/run.mcap --at 1m --out @/kept.mcap", "write a time from 0"),
-        ("keep @/run.mcap --out @/run.mcap", "this command reads it as"),
+        ("inspect keep @/run.mcap --at 100s --out @/kept.mcap", "the recording ends at"),
+        ("inspect keep @/early.mcap --out @/kept.mcap", "no fault has stopped the robot"),
+        ("inspect keep @/run.mcap --at 1m --out @/kept.mcap", "write a time from 0"),
+        ("inspect keep @/run.mcap --out @/run.mcap", "this command reads it as"),
         ("replay @/scene.yaml", "it is no MCAP file"),
         ("replay @/run.mcap @/run.mcap", "give each part once"),
         ("replay @/run.mcap @/early.mcap", "different runs"),
@@ -138,7 +138,7 @@ fn a_result_that_differs_is_reported_with_exit_status_1() {
     let output = in_folder(&folder, "replay @/run.mcap");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stdout(&output).contains("command.yaw_rate"), "{}", stdout(&output));
-    let output = in_folder(&folder, "keep @/run.mcap --at 1s --out @/kept.mcap");
+    let output = in_folder(&folder, "inspect keep @/run.mcap --at 1s --out @/kept.mcap");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("`command.yaw_rate` differs"), "{}", stderr(&output));
     // It is kept all the same: the difference is of interest.

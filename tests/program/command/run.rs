@@ -23,8 +23,8 @@ fn a_policy_that_is_not_there_is_told_at_the_place_that_names_it() {
     std::fs::write(&scenario, disk.replace("policy: ../policies/thesis.fsm", "policy: tesis.fsm")).unwrap();
     std::fs::copy("policies/thesis.fsm", directory.join("thesis.fsm")).unwrap();
     let line = 1 + std::fs::read_to_string(&scenario).unwrap().lines().position(|line| line.contains("tesis")).unwrap();
-    for command in ["run", "explain"] {
-        let output = vibrissa(&[command, scenario.to_str().unwrap()]);
+    for command in [&["run"][..], &["inspect", "explain"]] {
+        let output = vibrissa(&[command, &[scenario.to_str().unwrap()]].concat());
         assert_eq!(output.status.code(), Some(2));
         let told = stderr(&output);
         for wanted in ["error[S0401]", &format!("disk.yaml:{line}:9"), "did you mean `thesis.fsm`?"] {
@@ -52,9 +52,9 @@ fn built_in_scenes_and_policies_have_names_everywhere() {
     assert_eq!(own[1], "thesis");
     assert_eq!(own, figures(&["disk", "--policy", "thesis"]));
     assert_eq!(figures(&["box", "--policy", "vibrissa"])[1], "vibrissa");
-    assert!(run(&["explain", "round-tunnel"]).contains("steps"));
+    assert!(run(&["inspect", "explain", "round-tunnel"]).contains("steps"));
     assert!(run(&["check", "thesis"]).contains("thesis"));
-    assert!(run(&["mjcf", "wall"]).contains("<mujoco"));
+    assert!(run(&["inspect", "mjcf", "wall"]).contains("<mujoco"));
     // A file of that name comes first.
     std::fs::write(folder.join("disk"), "name: disk\n").unwrap();
     let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"))
@@ -124,13 +124,13 @@ fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
 #[cfg(feature = "outlines")]
 #[test]
 fn a_scenario_finds_its_outlines_beside_itself_and_tells_of_one_that_is_not_there() {
-    let model = vibrissa(&["mjcf", "scenarios/outlines/gripper.yaml"]);
+    let model = vibrissa(&["inspect", "mjcf", "scenarios/outlines/gripper.yaml"]);
     assert_eq!(model.status.code(), Some(0), "{}", stderr(&model));
     let directory = directory("outlines");
     let scenario = std::fs::read_to_string("scenarios/outlines/gripper.yaml").unwrap();
     std::fs::copy("scenarios/outlines/gripper.svg", directory.join("griper.svg")).unwrap();
     std::fs::write(directory.join("gripper.yaml"), scenario).unwrap();
-    let output = vibrissa(&["mjcf", &directory.join("gripper.yaml").display().to_string()]);
+    let output = vibrissa(&["inspect", "mjcf", &directory.join("gripper.yaml").display().to_string()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("did you mean `griper.svg`?"), "{}", stderr(&output));
 }

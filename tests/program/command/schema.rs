@@ -48,7 +48,7 @@ fn what_commands_write_is_as_the_schemas_say() {
     check("run", &printed(&[&["run", &scenario, "--json", "--ticks", &ticks][..], &world].concat())[0]);
     let ticks = fs::read_to_string(ticks).unwrap();
     check("tick", &serde_json::from_str(ticks.lines().last().unwrap()).unwrap());
-    check("pruning", &printed(&[&["explain", &scenario, "--json"][..], &world].concat()));
+    check("pruning", &printed(&[&["inspect", "explain", &scenario, "--json"][..], &world].concat()));
     for policy in ["policies/bang.fsm", "tests/fixtures/policies/bad/unclosed.fsm"] {
         check("check", &printed(&["check", policy, "--json"])[0]);
     }

@@ -1,4 +1,4 @@
-//! `vibrissa services`
+//! `vibrissa setup services`
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -29,7 +29,7 @@ fn generate(name: &str, options: &[&str]) -> PathBuf {
     let folder = directory(name);
     let policy = format!("{ROOT}/policies/thesis.fsm");
     let out = folder.to_str().unwrap();
-    let output = vibrissa(&[&["services", "generate", &policy, "--out", out], options].concat());
+    let output = vibrissa(&[&["setup", "services", "generate", &policy, "--out", out], options].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(stdout(&output).contains("next: copy env.example to .env"), "{}", stdout(&output));
     folder
@@ -145,13 +145,13 @@ fn a_wrong_name_and_a_file_without_messages_are_refused_and_messages_become_line
     let folder = directory("services-lines");
     let out = folder.join("out");
     let policy = format!("{ROOT}/policies/thesis.fsm");
-    let output = vibrissa(&["services", "generate", &policy, "--out", out.to_str().unwrap(), "--name", "a/b"]);
+    let output = vibrissa(&["setup", "services", "generate", &policy, "--out", out.to_str().unwrap(), "--name", "a/b"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("use letters, digits"), "{}", stderr(&output));
     assert!(!out.exists());
 
     let messages = folder.join("messages.txt");
-    let read = || vibrissa(&["services", "lines", messages.to_str().unwrap()]);
+    let read = || vibrissa(&["setup", "services", "lines", messages.to_str().unwrap()]);
     fs::write(&messages, "nothing\n").unwrap();
     assert_eq!(read().status.code(), Some(2));
     fs::write(&messages, "1.5 vibrissa/array/status online\n").unwrap();

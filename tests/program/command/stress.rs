@@ -19,7 +19,7 @@ use vibrissa::trial::{Answer, Worker, answer};
 
 use super::program::vibrissa;
 
-/// Those that take no more than some hundredths of a second; `vibrissa stress` runs them all.
+/// Those that take no more than some hundredths of a second; `vibrissa study stress` runs them all.
 #[test]
 fn hard_cases_end_in_one_of_the_ways_in_which_runs_end_with_finite_numbers() {
     let mut count = 0;
@@ -79,7 +79,7 @@ fn times_are_medians_of_the_runs_and_a_count_of_none_is_refused() {
     let row = TimingRow::new("disk".to_owned(), String::new(), String::new(), &runs).unwrap();
     assert_eq!((row.runs, row.processor_s, row.realtime, row.realtime_range), (3, 2.0, 5.0, [2.0, 10.0]));
     assert!(timing_table(&[row]).wide().contains("disk"));
-    assert_eq!(vibrissa(&["timing", "--repeats", "0"]).status.code(), Some(2));
+    assert_eq!(vibrissa(&["study", "timing", "--repeats", "0"]).status.code(), Some(2));
 }
 
 /// Whether the program has this world.

@@ -1,4 +1,4 @@
-//! `vibrissa sweep` and `vibrissa merge`.
+//! `vibrissa sweep` and `vibrissa study merge`.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -131,7 +131,7 @@ fn shards_are_merged_in_order_and_what_is_missing_or_twice_is_told() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     }
     assert_eq!(vibrissa(&["sweep", &file, "--out", &out("whole"), "--jobs", "1"]).status.code(), Some(0));
-    let output = vibrissa(&["merge", &out("shards")]);
+    let output = vibrissa(&["study", "merge", &out("shards")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     // One run at a time is in order by itself.
     let shards = directory.join("shards");
@@ -146,14 +146,14 @@ fn shards_are_merged_in_order_and_what_is_missing_or_twice_is_told() {
     let text = fs::read_to_string(&second).unwrap();
     let (kept, last) = text.trim_end().rsplit_once('\n').unwrap();
     fs::write(&second, kept.to_owned() + "\n").unwrap();
-    let output = vibrissa(&["merge", &out("shards")]);
+    let output = vibrissa(&["study", "merge", &out("shards")]);
     assert_eq!(output.status.code(), Some(1));
     let key = serde_json::from_str::<Value>(last).unwrap()["key"].as_str().unwrap().to_owned();
     let told = stderr(&output);
     assert!(told.contains(&format!("missing: {key} (shard 2/3)")) && told.contains("1 run is missing"), "{told}");
     assert!(!shards.join("results.jsonl").exists());
 
-    let output = vibrissa(&["merge", &second.display().to_string(), &second.display().to_string()]);
+    let output = vibrissa(&["study", "merge", &second.display().to_string(), &second.display().to_string()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("both have the run"), "{}", stderr(&output));
 }
@@ -211,7 +211,7 @@ fn a_crashed_run_is_repeated_and_a_line_with_the_name_of_another_run_is_refused(
     assert_eq!(count(&results), 5, "the run has a third line");
     assert_eq!(vibrissa(&["sweep", &file, "--out", &out]).status.code(), Some(0));
     assert_eq!(count(&results), 5, "nothing is left");
-    let output = vibrissa(&["merge", &results.display().to_string(), "--out", &merged, "--json"]);
+    let output = vibrissa(&["study", "merge", &results.display().to_string(), "--out", &merged, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     fs::write(directory.join("whole.jsonl"), &whole).unwrap();
     assert_eq!(set(Path::new(&merged)), set(&directory.join("whole.jsonl")));
@@ -219,7 +219,7 @@ fn a_crashed_run_is_repeated_and_a_line_with_the_name_of_another_run_is_refused(
     let other = whole.lines().nth(1).unwrap();
     let name = |line: &str| serde_json::from_str::<Value>(line).unwrap()["run"].as_str().unwrap().to_owned();
     fs::write(&results, whole.replace(&name(line), &name(other))).unwrap();
-    for arguments in [&["sweep", &file, "--out", &out][..], &["merge", &results.display().to_string()]] {
+    for arguments in [&["sweep", &file, "--out", &out][..], &["study", "merge", &results.display().to_string()]] {
         let output = vibrissa(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(stderr(&output).contains("line 3: `run` is"), "{}", stderr(&output));
@@ -330,8 +330,8 @@ fn merged_results_take_the_place_of_nothing_else() {
     let others = directory.join("results.jsonl");
     fs::write(&others, "letters to a friend\n").unwrap();
     for (arguments, reason) in [
-        (&["merge", &out][..], "does not contain results of a sweep"),
-        (&["merge", &out, "--out", &shard], "holds results of the shard 1/2"),
+        (&["study", "merge", &out][..], "does not contain results of a sweep"),
+        (&["study", "merge", &out, "--out", &shard], "holds results of the shard 1/2"),
     ] {
         let output = vibrissa(arguments);
         assert_eq!(output.status.code(), Some(2));
@@ -341,7 +341,7 @@ fn merged_results_take_the_place_of_nothing_else() {
     fs::remove_file(&others).unwrap();
     // Again and again.
     for _ in 0..2 {
-        assert_eq!(vibrissa(&["merge", &out]).status.code(), Some(0));
+        assert_eq!(vibrissa(&["study", "merge", &out]).status.code(), Some(0));
     }
 }
 
@@ -359,7 +359,7 @@ fn results_that_are_something_else_are_left_alone() {
     }
     let empty = directory.join("empty");
     fs::create_dir(&empty).unwrap();
-    let output = vibrissa(&["merge", &empty.display().to_string()]);
+    let output = vibrissa(&["study", "merge", &empty.display().to_string()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("there are no results of a sweep"), "{}", stderr(&output));
 }

@@ -79,7 +79,7 @@ pub(super) const KEEP: Case = Case {
         fs::copy(Path::new(ROOT).join("tests/recordings/stale-sensor.mcap"), folder.join("run.mcap")).unwrap();
         Content::new()
     },
-    arguments: |folder| words("keep @/run.mcap --out @/out/kept.mcap", folder),
+    arguments: |folder| words("inspect keep @/run.mcap --out @/out/kept.mcap", folder),
     old,
     is_long: false,
 };
@@ -142,7 +142,7 @@ pub(super) const BENCH: Case = Case {
 pub(super) const SERVICES: Case = Case {
     name: "services",
     prepare: policy,
-    arguments: |folder| words("services generate @/quick.fsm --out @/out", folder),
+    arguments: |folder| words("setup services generate @/quick.fsm --out @/out", folder),
     old,
     is_long: true,
 };
@@ -151,7 +151,7 @@ pub(super) const SERVICES: Case = Case {
 pub(super) const PARETO: Case = Case {
     name: "pareto",
     prepare: policy,
-    arguments: |folder| words("pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @/out", folder),
+    arguments: |folder| words("study pareto @/scene.yaml --policy @/quick.fsm --repeats 1 --out @/out", folder),
     old,
     is_long: true,
 };
@@ -182,7 +182,7 @@ pub(super) const MERGE: Case = Case {
         }
         Content::new()
     },
-    arguments: |folder| words("merge @/shards --out @/out/results.jsonl", folder),
+    arguments: |folder| words("study merge @/shards --out @/out/results.jsonl", folder),
     // Merged results replace older ones of the same sweep only.
     old: |new| new.split_inclusive(|byte| *byte == b'\n').next().unwrap().to_vec(),
     is_long: false,

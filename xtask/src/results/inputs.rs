@@ -58,7 +58,7 @@ pub(super) fn files(root: &Path, commands: &[&str]) -> Result<BTreeSet<String>, 
 fn named(command: &str, has_policy: bool) -> Vec<String> {
     let words = command.split(' ').filter(|word| ENDINGS.contains(&ending(word)));
     let mut files: Vec<String> = words.map(str::to_owned).collect();
-    let verb = command.split(' ').next().unwrap_or_default();
+    let verb = verb(command);
     let has_scene = files.iter().any(|file| ending(file) == "yaml");
     if matches!(verb, "bench" | "estimators" | "timing" | "worlds") || verb == "compare" && !has_scene {
         files.extend(BENCH.map(|scene| format!("scenarios/{scene}.yaml")));
@@ -73,6 +73,11 @@ fn named(command: &str, has_policy: bool) -> Vec<String> {
         files.extend(["scenarios/disk.yaml", PLAUSIBLE].map(str::to_owned));
     }
     files
+}
+
+/// The word that says what a command does. Those of studies stand behind another one.
+pub(super) fn verb(command: &str) -> &str {
+    command.strip_prefix("study ").unwrap_or(command).split(' ').next().unwrap_or_default()
 }
 
 /// The libraries that the text of a policy uses.

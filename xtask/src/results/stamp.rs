@@ -96,7 +96,7 @@ fn figures(commands: &[&str], files: &BTreeSet<String>) -> Vec<String> {
     let mut found = Vec::new();
     for (world, is_default) in [("mujoco", true), ("quasistatic", false)] {
         let runs = |command: &&&str| {
-            let verb = command.split(' ').next().unwrap_or_default();
+            let verb = inputs::verb(command);
             let chosen = command.split_once("--world ").map(|(_, rest)| rest.split(' ').next().unwrap_or_default());
             BOTH.contains(&verb) && chosen.is_none() || chosen.map_or(is_default, |chosen| chosen == world)
         };
@@ -150,6 +150,6 @@ mod tests {
         let [thesis, vibrissa] = inputs::POLICIES;
         assert_eq!(names("bench --json", thesis), ["snapshots/metrics/thesis-mujoco.txt"]);
         assert_eq!(names("bench --world quasistatic --json", vibrissa).len(), 2);
-        assert_eq!(names("worlds --against quasistatic --json", vibrissa).len(), 4);
+        assert_eq!(names("study worlds --against quasistatic --json", vibrissa).len(), 4);
     }
 }

@@ -16,7 +16,7 @@ use crate::listener::Listener;
 use crate::mosquitto::{Mosquitto, find, free_port};
 use crate::{PATIENCE, wait_until};
 
-/// The dashboard of the services. It is as `vibrissa services generate` makes it, which a test of that command ensures.
+/// The dashboard of the services. It is as `vibrissa setup services generate` makes it, which a test of that command ensures.
 const DASHBOARD: &str = include_str!("../../../../deploy/services/grafana/dashboards/robot.json");
 
 /// A running InfluxDB on the loopback interface. It ends with the test.
