@@ -120,7 +120,7 @@ pub(super) fn program() -> Command {
         }
         commands.push('\n');
     }
-    program.help_template(format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{commands}{{after-help}}\n"))
+    program.help_template(format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{commands}Options:\n{{options}}{{after-help}}"))
 }
 
 #[cfg(test)]

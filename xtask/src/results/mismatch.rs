@@ -114,7 +114,7 @@ mod tests {
         assert!(page.contains("| disk | 0.030 | 0.050 | 0.900 | 0.100 | 2.000 |\n"), "{page}");
         assert!(page.contains("| box | 0.030 | 0.050, ended | 0.900 | 0.100 | timeout |\n"), "{page}");
         assert!(page.contains("| disk | 95 | 95 | 95 | 95 | 95 |\n"), "{page}");
-        assert!(page.contains("| mismatch | disk | box |\n|---|---|---|\n| `{}` | 0.0300 | 0.0100 |\n"), "{page}");
+        assert!(page.contains("| mismatch | disk | box |\n|---|---|---|\n| `{}` | 0.03 | 0.01 |\n"), "{page}");
         assert!(page.contains("| `{servo: 1 s}` | 2.00 | – |\n"), "{page}");
         Ok(())
     }

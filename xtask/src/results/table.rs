@@ -45,7 +45,7 @@ impl Show {
     }
 }
 
-/// A number with so many decimals. A small one has as many as three significant digits need, if fewer than two were left: errors in a
+/// A number with so many decimals. A small one has as many as two significant digits need, because errors in a
 /// simulator without noise are not zero. A number that these decimals show exactly, such as one that somebody else reports, gets no more.
 fn fixed(number: f64, decimals: usize) -> String {
     let (size, short) = (number.abs(), format!("{number:.decimals$}"));
@@ -54,8 +54,8 @@ fn fixed(number: f64, decimals: usize) -> String {
         return short;
     }
     let needed =
-        (0..=9_usize).find(|&decimals| size >= 99.5 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)));
-    needed.map_or_else(|| format!("{number:.2e}"), |needed| format!("{number:.needed$}"))
+        (0..=9_usize).find(|&decimals| size >= 9.95 * 0.1_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX)));
+    needed.map_or_else(|| format!("{number:.1e}"), |needed| format!("{number:.needed$}"))
 }
 
 /// The value behind a path. What is behind null is null, but a key that an object lacks is an error.
@@ -156,9 +156,9 @@ mod tests {
     }
 
     #[test]
-    fn a_small_number_keeps_three_digits_and_a_larger_one_its_decimals() {
+    fn a_small_number_keeps_two_digits_and_a_larger_one_its_decimals() {
         let shown = [0.000_312, 0.001_24, 0.0316, 0.5, 12.0, 0.0, -0.000_312, 3.21e-12].map(|number| fixed(number, 3));
-        assert_eq!(shown, ["0.000312", "0.00124", "0.032", "0.500", "12.000", "0.000", "-0.000312", "3.21e-12"]);
+        assert_eq!(shown, ["0.00031", "0.0012", "0.032", "0.500", "12.000", "0.000", "-0.00031", "3.2e-12"]);
         assert_eq!(fixed(0.4, 0), "0");
     }
 
