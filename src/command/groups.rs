@@ -120,7 +120,9 @@ pub(super) fn program() -> Command {
         }
         commands.push('\n');
     }
-    program.help_template(format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{commands}Options:\n{{options}}{{after-help}}"))
+    program.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{commands}Options:\n{{options}}{{after-help}}"
+    ))
 }
 
 #[cfg(test)]
