@@ -116,7 +116,7 @@ pub(super) const PAGES: [Page; 15] = [
     Page {
         name: "timing",
         title: "Run times",
-        about: "[Speed](../bench.md#vibrissa-timing---repeats-n) of both simulators, medians of three runs of each scene.",
+        about: "[Speed](../bench.md#vibrissa-study-timing---repeats-n) of both simulators, medians of three runs of each scene.",
         commands: &["study timing --repeats 3 --json", "study timing --repeats 3 --world quasistatic --json"],
         code: &["src/study/timing.rs"],
         has_times: true,
@@ -205,7 +205,7 @@ pub(super) const PAGES: [Page; 15] = [
     Page {
         name: "estimators",
         title: "Results of the contact estimators",
-        about: "All [contact estimators](../bench.md#vibrissa-estimators) on the samples of the same runs, with three strengths of noise.",
+        about: "All [contact estimators](../bench.md#vibrissa-study-estimators) on the samples of the same runs, with three strengths of noise.",
         commands: &["study estimators --json"],
         code: &["src/study/estimators"],
         has_times: true,
