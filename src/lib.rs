@@ -104,49 +104,23 @@
 //! | `docs/howto` | how to add a contact estimator, a metric, a scene family or a construct of the language |
 //! | `ARCHITECTURE.md` | the structure of the code, for contributors |
 
-// The code that pest writes for a grammar without `std` names it.
-extern crate alloc;
-
-pub mod built_in;
-pub mod calibration;
-pub mod catalogue;
 mod command;
-pub mod diagnostic;
-#[cfg(feature = "lsp")]
-mod editor;
-pub mod emulated;
-pub mod family;
-mod file;
-pub mod geometry;
-pub mod inspect;
 #[cfg(feature = "live")]
 pub mod live;
-mod load;
-pub mod mismatch;
-pub mod mujoco;
-pub mod outline;
-pub mod physics;
-pub mod policy;
-mod property;
-pub mod quasi_static;
-#[cfg(feature = "recording")]
-pub mod recording;
-pub mod report;
-pub mod request;
-pub mod results;
-pub mod run;
-pub mod scenario;
-pub mod scene;
-pub mod score;
 pub mod services;
-pub mod solid;
-pub mod study;
-pub mod sweep;
-pub mod trial;
-pub mod tune;
 #[cfg(any(feature = "render", feature = "viewer"))]
 pub mod video;
-pub mod world;
+
+pub use vibrissa_declare::catalogue;
+#[cfg(feature = "recording")]
+pub use vibrissa_lab::recording;
+pub use vibrissa_lab::{
+    built_in, calibration, emulated, family, inspect, report, request, results, run, score, study, sweep, trial, tune,
+};
+pub use vibrissa_language as policy;
+pub use vibrissa_mujoco as mujoco;
+pub use vibrissa_text::diagnostic;
+pub use vibrissa_world::{geometry, mismatch, outline, physics, quasi_static, scenario, scene, solid, world};
 
 #[doc(hidden)]
 pub use command::main as command_line;

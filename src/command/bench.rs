@@ -13,14 +13,14 @@ use super::output;
 use super::provenance::of_runs;
 use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
 use super::values::parse_seed;
-use crate::built_in::SCENARIOS;
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, GivenMismatch, LoadError, check_noise_seed};
-use crate::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use crate::results::{Document, Ending, Provenance, RunResult};
-use crate::study::bench::{BenchRow, Conditions};
-use crate::study::compare::OlderRuns;
-use crate::trial::Trial;
+use vibrissa_lab::built_in::SCENARIOS;
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, check_noise_seed};
+use vibrissa_lab::report::{RunFigures, bench_page, bench_table, pooled_tips};
+use vibrissa_lab::results::{Document, Ending, Provenance, RunResult};
+use vibrissa_lab::study::bench::{BenchRow, Conditions};
+use vibrissa_lab::study::compare::OlderRuns;
+use vibrissa_lab::trial::Trial;
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
 
 const EXAMPLE: &str = "Example:\n  vibrissa bench --out out\n  vibrissa bench --policy mine.fsm --friction 0,0.1\n\nExit status: 0 all runs completed and no figure is worse than that of the baseline; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -18,13 +18,13 @@ use super::output;
 use super::provenance::provenance;
 use super::trials::make_directory;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
-use crate::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, LoadError, SeedWithoutEffect};
-use crate::physics::{Physics, Preset};
-use crate::report::{held_out_table, profile_picture};
-use crate::results::Document;
-use crate::scenario::{write_calibration, write_robot_calibration};
+use vibrissa_lab::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
+use vibrissa_lab::load::{self, LoadError, SeedWithoutEffect};
+use vibrissa_lab::report::{held_out_table, profile_picture};
+use vibrissa_lab::results::Document;
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_world::physics::{Physics, Preset};
+use vibrissa_world::scenario::{write_calibration, write_robot_calibration};
 
 const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n  vibrissa calibrate --self --mismatch scenarios/mismatch/plausible.yaml --out out\n  vibrissa calibrate --touches out/touches.csv --rig my-rig.yaml --out measured\n\nExit status: 0 done; 1 a whisker is refused; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -282,7 +282,7 @@ fn simulated(
     whisker: usize,
     arguments: &CalibrateArguments,
 ) -> Result<Vec<ContactSet>, Failure> {
-    Ok(crate::calibration::simulated_sets(rig, physics, whisker, arguments.seed.unwrap_or(0))?)
+    Ok(vibrissa_lab::calibration::simulated_sets(rig, physics, whisker, arguments.seed.unwrap_or(0))?)
 }
 
 #[cfg(not(feature = "sim"))]

@@ -13,15 +13,15 @@ use super::failure::Failure;
 use super::output;
 use super::provenance::provenance;
 use super::trials::make_directory;
-use crate::built_in::SCENARIOS;
-use crate::calibration::{ArrayCalibration, TouchLimits, WhiskerTouches, undetermined, write_touches};
-use crate::file::{CommandFiles, Output};
-use crate::load::{self, LoadError, check_noise_seed};
-use crate::report::measured_table;
-use crate::results::Document;
-use crate::scenario::write_calibration;
-use crate::scene::Scene;
-use crate::trial::in_parallel;
+use vibrissa_lab::built_in::SCENARIOS;
+use vibrissa_lab::calibration::{ArrayCalibration, TouchLimits, WhiskerTouches, undetermined, write_touches};
+use vibrissa_lab::load::{self, LoadError, check_noise_seed};
+use vibrissa_lab::report::measured_table;
+use vibrissa_lab::results::Document;
+use vibrissa_lab::trial::in_parallel;
+use vibrissa_text::file::{CommandFiles, Output};
+use vibrissa_world::scenario::write_calibration;
+use vibrissa_world::scene::Scene;
 
 /// The JSON output for one whisker.
 #[derive(Serialize)]

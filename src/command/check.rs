@@ -12,12 +12,12 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::provenance::provenance;
-use crate::diagnostic::{Position, Record, records};
-use crate::file::CommandFiles;
-use crate::load::{self, LoadError, PolicyFile};
-use crate::policy::{self, Checked as Found, ProvedContract};
-use crate::report::Table;
-use crate::results::Document;
+use vibrissa_lab::load::{self, LoadError, PolicyFile};
+use vibrissa_lab::report::Table;
+use vibrissa_lab::results::Document;
+use vibrissa_language::{Checked as Found, ProvedContract};
+use vibrissa_text::diagnostic::{Position, Record, records};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa check policies/thesis.fsm --deny-warnings\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -201,7 +201,7 @@ fn check_one(path: &Path, files: &mut CommandFiles, json: bool) -> Result<Checke
         PolicyFile::Text(source) => load::with_libraries(&source, files),
         PolicyFile::Machine(artifact) => return check_machine(path, &artifact, json),
     };
-    let (machine, library, diagnostics) = match policy::check(&source) {
+    let (machine, library, diagnostics) = match vibrissa_language::check(&source) {
         Ok(Found::Machine(compiled)) => (Some(summary(&compiled.artifact, &compiled.proved)), None, compiled.warnings),
         Ok(Found::Library { name, laws, values, behaviours, monitors, warnings }) => {
             (None, Some(LibrarySummary { name, laws, values, behaviours, monitors }), warnings)

@@ -13,14 +13,14 @@ use super::output;
 use super::provenance::of_runs;
 use super::trials::{inputs, make_directory, run_all};
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
-use crate::built_in::{SCENARIOS, TextFile};
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, GivenMismatch, LoadError, Loaded};
-use crate::report::{comparison_page, comparison_tables};
-use crate::results::{Document, JitterRecord, Provenance, RunResult, marked};
-use crate::scene::{Jitter, Scene};
-use crate::study::compare::{Comparison, Incomplete, PolicyRuns};
-use crate::trial::Trial;
+use vibrissa_lab::built_in::{SCENARIOS, TextFile};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
+use vibrissa_lab::report::{comparison_page, comparison_tables};
+use vibrissa_lab::results::{Document, JitterRecord, Provenance, RunResult, marked};
+use vibrissa_lab::study::compare::{Comparison, Incomplete, PolicyRuns};
+use vibrissa_lab::trial::Trial;
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_world::scene::{Jitter, Scene};
 
 const EXAMPLE: &str = "Example:\n  vibrissa compare policies/thesis.fsm policies/vibrissa.fsm --seeds 20 --jitter \"10 mm\"\n\nExit status: 0 done, whichever policy is better; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -199,6 +199,6 @@ fn settings(
     Ok(settings)
 }
 
-fn started(path: &Path, scene: &Scene, jitter: &Jitter) -> Result<crate::geometry::Pose, Failure> {
+fn started(path: &Path, scene: &Scene, jitter: &Jitter) -> Result<vibrissa_world::geometry::Pose, Failure> {
     jitter.start(scene, scene.seed).ok_or_else(|| Failure::NoStart { scenario: path.to_owned() })
 }

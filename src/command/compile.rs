@@ -8,8 +8,8 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::options::Settings;
 use super::output;
-use crate::file::CommandFiles;
-use crate::load::{self, LoadError};
+use vibrissa_lab::load::{self, LoadError};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa compile policies/vibrissa.fsm --out vibrissa.machine\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 

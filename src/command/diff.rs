@@ -12,13 +12,13 @@ use super::options::{ArrayOptions, Format, WorldOptions};
 use super::output;
 use super::provenance::of_trials;
 use super::trials::{calibrated, say_calibrations};
-use crate::built_in::{SCENARIOS, TextFile};
-use crate::file::CommandFiles;
-use crate::inspect::{Breakpoints, PolicyDifference, first_difference};
-use crate::load::{self, LoadError, Loaded};
-use crate::report::difference_tables;
-use crate::scene::Scene;
-use crate::trial::{Inputs, Trial};
+use vibrissa_lab::built_in::{SCENARIOS, TextFile};
+use vibrissa_lab::inspect::{Breakpoints, PolicyDifference, first_difference};
+use vibrissa_lab::load::{self, LoadError, Loaded};
+use vibrissa_lab::report::difference_tables;
+use vibrissa_lab::trial::{Inputs, Trial};
+use vibrissa_text::file::CommandFiles;
+use vibrissa_world::scene::Scene;
 
 const EXAMPLE: &str = "Example:\n  vibrissa inspect diff policies/thesis.fsm mine.fsm scenarios/box.yaml\n\nExit status: 0 the policies are equal in every tick; 1 they differ; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -22,15 +22,15 @@ use super::provenance::of_trials;
 use super::run_recording::RunRecording;
 use super::trials::{ReportFiles, inputs, make_directory, report_events, report_violations};
 use super::values::parse_seed;
-use crate::emulated;
-use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
-use crate::load::{self, GivenMismatch, Loaded};
-use crate::report::{Table, faults_table, results_table};
-use crate::results::{DriveResult, UndetectedFault};
-use crate::scene::Scene;
-use crate::trial::{Inputs, Trial};
+use vibrissa_lab::emulated;
+use vibrissa_lab::load::{self, GivenMismatch, Loaded};
+use vibrissa_lab::report::{Table, faults_table, results_table};
+use vibrissa_lab::results::{DriveResult, UndetectedFault};
+use vibrissa_lab::trial::{Inputs, Trial};
+use vibrissa_text::file::CommandFiles;
+use vibrissa_world::scene::Scene;
 
 const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nOn the robot:\n  vibrissa drive thesis.machine --config /etc/vibrissa/array.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed, or a fault stopped the robot; 2 unusable input; 3 internal error; 130 interrupted.";
 

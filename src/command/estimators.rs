@@ -12,12 +12,12 @@ use super::output;
 use super::progress::Progress;
 use super::provenance::of_trials;
 use super::trials::calibrated;
-use crate::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
-use crate::file::CommandFiles;
-use crate::load::{self, LoadError, Loaded};
-use crate::report::estimators_tables;
-use crate::study::estimators::{EstimatorRow, evaluate_all};
-use crate::trial::{Trial, in_parallel};
+use vibrissa_lab::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
+use vibrissa_lab::load::{self, LoadError, Loaded};
+use vibrissa_lab::report::estimators_tables;
+use vibrissa_lab::study::estimators::{EstimatorRow, evaluate_all};
+use vibrissa_lab::trial::{Trial, in_parallel};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa study estimators --world quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -10,10 +10,9 @@ use super::failure::Failure;
 use super::options::WorldOption;
 use super::output;
 use super::provenance::{provenance, simulator};
-use crate::file::CommandFiles;
-use crate::load;
-use crate::mujoco::Pruning;
-use crate::results::Document;
+use vibrissa_lab::load;
+use vibrissa_mujoco::Pruning;
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa inspect explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -32,10 +31,6 @@ pub(super) struct ExplainArguments {
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-}
-
-impl Document for Pruning {
-    const FORMAT: &'static str = "pruning";
 }
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {

@@ -2,36 +2,36 @@
 
 use std::path::{Path, PathBuf};
 
-#[cfg(feature = "sim")]
-use crate::calibration::CalibrationRigError;
-use crate::calibration::{ArrayCalibrationError, MIN_POSITIONS};
-use crate::emulated::EmulatedError;
-use crate::family::{FAMILIES, NoDraw};
-use crate::file::OutputError;
 #[cfg(feature = "live")]
 use crate::live::LiveError;
-use crate::load::LoadError;
-use crate::mismatch::MismatchError;
-#[cfg(feature = "viewer")]
-use crate::mujoco::WindowError;
-use crate::policy::chart::UnknownState;
-use crate::property::RegressionsError;
-#[cfg(feature = "recording")]
-use crate::recording::{ReadRecordingError, RecordError};
-use crate::report::ChartTooLarge;
-use crate::request::{RequestError, RequestFault};
 use crate::services::MessagesError;
-use crate::study::compare::OlderRunsError;
-use crate::study::stress::CaseError;
-use crate::sweep::{PlanError, ResultsError};
-use crate::trial::{ExecuteError, StartError, Trial};
-use crate::tune::{AxisError, CandidateError};
 #[cfg(feature = "render")]
 use crate::video::VideoError;
+#[cfg(feature = "sim")]
+use vibrissa_lab::calibration::CalibrationRigError;
+use vibrissa_lab::calibration::{ArrayCalibrationError, MIN_POSITIONS};
+use vibrissa_lab::emulated::EmulatedError;
+use vibrissa_lab::family::{FAMILIES, NoDraw};
+use vibrissa_lab::load::LoadError;
+use vibrissa_lab::property::RegressionsError;
+#[cfg(feature = "recording")]
+use vibrissa_lab::recording::{ReadRecordingError, RecordError};
+use vibrissa_lab::report::ChartTooLarge;
+use vibrissa_lab::request::{RequestError, RequestFault};
+use vibrissa_lab::study::compare::OlderRunsError;
+use vibrissa_lab::study::stress::CaseError;
+use vibrissa_lab::sweep::{PlanError, ResultsError};
+use vibrissa_lab::trial::{ExecuteError, StartError, Trial};
+use vibrissa_lab::tune::{AxisError, CandidateError};
+use vibrissa_language::chart::UnknownState;
+#[cfg(feature = "viewer")]
+use vibrissa_mujoco::WindowError;
 use vibrissa_robot::recording::{KeepError, WriteError};
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::{ArtifactError, SetError};
 use vibrissa_runtime::rig::UnknownWhisker;
+use vibrissa_text::file::OutputError;
+use vibrissa_world::mismatch::MismatchError;
 
 use super::exit::Exit;
 use super::output;

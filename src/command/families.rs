@@ -14,14 +14,14 @@ use super::output;
 use super::provenance::of_runs;
 use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
 use super::values::{parse_runs, parse_seed};
-use crate::built_in::DEFAULT_POLICY;
-use crate::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
-use crate::report::{families_page, families_table};
-use crate::results::{Provenance, SeedRange};
-use crate::scene::Violation;
-use crate::trial::{Trial, in_parallel};
+use vibrissa_lab::built_in::DEFAULT_POLICY;
+use vibrissa_lab::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
+use vibrissa_lab::report::{families_page, families_table};
+use vibrissa_lab::results::{Provenance, SeedRange};
+use vibrissa_lab::trial::{Trial, in_parallel};
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_world::scene::Violation;
 
 const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --out out\n\nExit status: 0 all runs passed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -9,10 +9,10 @@ use similar::TextDiff;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use crate::diagnostic::{Source, printable};
-use crate::file::{CommandFiles, replace};
-use crate::load;
-use crate::policy::format;
+use vibrissa_lab::load;
+use vibrissa_language::format;
+use vibrissa_text::diagnostic::{Source, printable};
+use vibrissa_text::file::{CommandFiles, replace};
 
 const EXAMPLE: &str = "Example:\n  vibrissa fmt --check policies/*.fsm\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -8,10 +8,10 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::values::parse_depth;
-use crate::file::CommandFiles;
-use crate::load;
-use crate::policy::chart::View;
-use crate::report::{chart_dot, chart_mermaid, chart_svg};
+use vibrissa_lab::load;
+use vibrissa_lab::report::{chart_dot, chart_mermaid, chart_svg};
+use vibrissa_language::chart::View;
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa graph policies/thesis.fsm --out thesis.svg\n  vibrissa graph policies/vibrissa.fsm --depth 1 --format mermaid\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -11,12 +11,12 @@ use super::output;
 use super::provenance::of_trials;
 use super::reports::Reports;
 use super::run::{Prepared, RunArguments, TickFile, prepared_trials};
-use crate::diagnostic::Source;
-use crate::file::CommandFiles;
-use crate::inspect::{Breakpoints, Inspector};
-use crate::load::LoadError;
-use crate::report::stop_tables;
-use crate::trial::{ExecuteError, Trial};
+use vibrissa_lab::inspect::{Breakpoints, Inspector};
+use vibrissa_lab::load::LoadError;
+use vibrissa_lab::report::stop_tables;
+use vibrissa_lab::trial::{ExecuteError, Trial};
+use vibrissa_text::diagnostic::Source;
+use vibrissa_text::file::CommandFiles;
 
 /// The options of a run that looks into its policy.
 #[derive(Debug, Args)]

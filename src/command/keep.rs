@@ -9,8 +9,8 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::values::parse_time;
-use crate::file::CommandFiles;
-use crate::load::{self, LoadError};
+use vibrissa_lab::load::{self, LoadError};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa inspect keep run-00012-00000.mcap --at 12.3s --out caught.mcap\n\nExit status: 0 done; 1 the kept recording does not replay bit for bit on this computer; 2 unusable input; 3 internal error.";
 

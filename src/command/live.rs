@@ -8,9 +8,9 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::output;
-use crate::file::CommandFiles;
 use crate::live::{Live, LiveOptions, LiveWatcher, RunSetup};
-use crate::load;
+use vibrissa_lab::load;
+use vibrissa_text::file::CommandFiles;
 
 /// The environment variable with the token of a page.
 const TOKEN: &str = "VIBRISSA_LIVE_TOKEN";

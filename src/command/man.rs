@@ -10,7 +10,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::trials::make_directory;
-use crate::file::CommandFiles;
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa setup man --out ~/.local/share/man/man1\n\n\
                        Exit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";

@@ -10,10 +10,10 @@ use super::options::Format;
 use super::output;
 use super::provenance::provenance;
 use super::sweep::{PAGE, print_summary, write_page};
-use crate::file::CommandFiles;
-use crate::load::LoadError;
-use crate::results::Provenance;
-use crate::sweep::{Missing, SweepSummary, merge as merge_files};
+use vibrissa_lab::load::LoadError;
+use vibrissa_lab::results::Provenance;
+use vibrissa_lab::sweep::{Missing, SweepSummary, merge as merge_files};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa study merge out/corners\n\nExit status: 0 all runs are there; 1 some are missing; 2 unusable input; 3 internal error; 130 interrupted.";
 

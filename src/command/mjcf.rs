@@ -7,9 +7,9 @@ use clap::Args;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use crate::file::CommandFiles;
-use crate::load;
-use crate::trial::model;
+use vibrissa_lab::load;
+use vibrissa_lab::trial::model;
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa inspect mjcf scenarios/box.yaml > box.xml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 

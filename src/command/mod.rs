@@ -59,7 +59,7 @@ use std::process::ExitCode;
 
 use clap::{FromArgMatches, Parser, Subcommand};
 
-use crate::diagnostic::printable;
+use vibrissa_text::diagnostic::printable;
 
 use exit::Exit;
 use groups::{Inspect, Setup, Study};

@@ -14,14 +14,14 @@ use super::output;
 use super::progress::Progress;
 use super::provenance::of_trials;
 use super::trials::{calibrated, drawn, inputs, make_directory, say_calibrations};
-use crate::built_in::SCENARIOS;
-use crate::diagnostic::Source;
-use crate::file::{CommandFiles, Output};
-use crate::inspect::{Breakpoints, NearMiss, NearMisses};
-use crate::load::{self, LoadError, Loaded};
-use crate::report::near_miss_table;
-use crate::sweep::Plan;
-use crate::trial::{ExecuteError, Trial, in_parallel};
+use vibrissa_lab::built_in::SCENARIOS;
+use vibrissa_lab::inspect::{Breakpoints, NearMiss, NearMisses};
+use vibrissa_lab::load::{self, LoadError, Loaded};
+use vibrissa_lab::report::near_miss_table;
+use vibrissa_lab::sweep::Plan;
+use vibrissa_lab::trial::{ExecuteError, Trial, in_parallel};
+use vibrissa_text::diagnostic::Source;
+use vibrissa_text::file::{CommandFiles, Output};
 
 const EXAMPLE: &str = "Examples:\n  vibrissa inspect near-misses --policy mine.fsm --out out\n  vibrissa inspect near-misses --sweep sweeps/corners.yaml\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 

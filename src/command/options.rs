@@ -13,13 +13,13 @@ use vibrissa_runtime::units::{Quantity, parse_quantity};
 use super::failure::Failure;
 use super::output;
 use super::values::{parse_friction, parse_jobs, parse_seed};
-use crate::built_in::{POLICIES, TextFile};
-use crate::family::{Family, Values};
-use crate::file::CommandFiles;
-use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy};
-use crate::scene::{Scene, WorldKind, WorldSetup};
-use crate::study::bench::Conditions;
-use crate::trial::{Threads, processors};
+use vibrissa_lab::built_in::{POLICIES, TextFile};
+use vibrissa_lab::family::{Family, Values};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy};
+use vibrissa_lab::study::bench::Conditions;
+use vibrissa_lab::trial::{Threads, processors};
+use vibrissa_text::file::CommandFiles;
+use vibrissa_world::scene::{Scene, WorldKind, WorldSetup};
 
 /// The format of results on standard output.
 #[derive(Debug, Clone, Copy, Args)]

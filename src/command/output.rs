@@ -7,13 +7,13 @@ use std::path::Path;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::rig::Rig;
 
-use crate::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
-use crate::report::Table;
-use crate::results::{CalibrationIdentity, Document, Provenance};
+use vibrissa_lab::report::Table;
+use vibrissa_lab::results::{CalibrationIdentity, Document, Provenance};
+use vibrissa_text::diagnostic::{Colour, Diagnostic, Source, printable, printable_json, terminal};
 
 use super::failure::Failure;
 use super::options::Format;
-use crate::load::{Policy, PolicyText};
+use vibrissa_lab::load::{Policy, PolicyText};
 
 /// Prints a result and ends its line.
 pub(super) fn result(text: impl Display) -> Result<(), Failure> {

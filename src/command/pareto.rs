@@ -14,13 +14,13 @@ use super::progress::Progress;
 use super::provenance::of_trials;
 use super::trials::{extended, make_directory};
 use super::values::parse_repeats;
-use crate::built_in::SCENARIOS;
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, LoadError, Loaded};
-use crate::report::{pareto_page, pareto_picture, pareto_table};
-use crate::results::{Document, Provenance};
-use crate::study::pareto::{Pareto, Setting, measure};
-use crate::trial::{Trial, check_world};
+use vibrissa_lab::built_in::SCENARIOS;
+use vibrissa_lab::load::{self, LoadError, Loaded};
+use vibrissa_lab::report::{pareto_page, pareto_picture, pareto_table};
+use vibrissa_lab::results::{Document, Provenance};
+use vibrissa_lab::study::pareto::{Pareto, Setting, measure};
+use vibrissa_lab::trial::{Trial, check_world};
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
 
 const EXAMPLE: &str = "Example:\n  vibrissa study pareto scenarios/box.yaml --repeats 5 --out out\n  vibrissa study pareto --policy policies/thesis.fsm --mismatch scenarios/mismatch/hard.yaml\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
 

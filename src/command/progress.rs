@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
-use crate::diagnostic::printable;
+use vibrissa_text::diagnostic::printable;
 
 use super::exit::Exit;
 use super::output;

@@ -4,8 +4,8 @@ use std::env;
 use std::ffi::OsString;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use crate::results::{MismatchRecord, Provenance, RunOrigin, RunResult, Simulator};
-use crate::trial::{Trial, simulator_version};
+use vibrissa_lab::results::{MismatchRecord, Provenance, RunOrigin, RunResult, Simulator};
+use vibrissa_lab::trial::{Trial, simulator_version};
 
 /// The commit of the sources of this program. The build script sets it.
 const COMMIT: Option<&str> = option_env!("VIBRISSA_COMMIT");

@@ -11,7 +11,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::provenance::provenance;
-use crate::results::Document;
+use vibrissa_lab::results::Document;
 
 const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  minisign -Sm thesis.machine\n  vibrissa push vibrissa@robot thesis.machine\n\nExit status: 0 the robot has the machine; 2 unusable input, or the robot did not take the machine; 3 internal error; 130 interrupted.";
 

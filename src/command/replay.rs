@@ -16,24 +16,24 @@ use super::output;
 use super::provenance::provenance;
 #[cfg(feature = "recording")]
 use super::{diff::explained, inspect::breakpoints};
-use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::{Live, LiveReplay};
-use crate::load::{self, LoadError};
+use vibrissa_lab::load::{self, LoadError};
 #[cfg(feature = "recording")]
-use crate::recording::{RunRecording, compare_policies};
+use vibrissa_lab::recording::{RunRecording, compare_policies};
 #[cfg(feature = "recording")]
-use crate::report::difference_tables;
-use crate::report::replay_tables;
-use crate::results::ReplayResult;
+use vibrissa_lab::report::difference_tables;
+use vibrissa_lab::report::replay_tables;
+use vibrissa_lab::results::ReplayResult;
+use vibrissa_text::file::CommandFiles;
 #[cfg(feature = "live")]
 use {
-    crate::built_in::SCENARIOS,
-    crate::load::Loaded,
-    crate::scene::{Scene, WorldKind, WorldSetup},
-    crate::trial::{Trial, short_hash},
     sha2::Digest,
     std::sync::Arc,
+    vibrissa_lab::built_in::SCENARIOS,
+    vibrissa_lab::load::Loaded,
+    vibrissa_lab::trial::{Trial, short_hash},
+    vibrissa_world::scene::{Scene, WorldKind, WorldSetup},
 };
 
 const EXAMPLE: &str = "Examples:\n  vibrissa replay caught.mcap\n  vibrissa replay run.mcap --policy mine.fsm\n\nExit status: 0 every result is bit-identical; 1 a result differs; 2 unusable input; 3 internal error.";
@@ -104,7 +104,7 @@ fn replay_run(
     files: &mut CommandFiles,
 ) -> Result<Exit, Failure> {
     let Some(policy) = &arguments.policy else {
-        let result = crate::recording::replay(run).map_err(Failure::run_recording(path))?;
+        let result = vibrissa_lab::recording::replay(run).map_err(Failure::run_recording(path))?;
         output::document(arguments.format, &provenance(), &result, || replay_tables(&result))?;
         return Ok(if result.difference.is_none() { Exit::Done } else { Exit::Unexpected });
     };

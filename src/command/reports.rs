@@ -6,11 +6,11 @@ use super::failure::Failure;
 use super::options::Format;
 use super::output;
 use super::trials::{ReportFiles, make_directory, report_events, report_violations};
-use crate::file::{CommandFiles, Output};
-use crate::report::{RunFigures, results_table, runs_page};
-use crate::results::{Provenance, RunResult};
-use crate::run::Run;
-use crate::trial::{Trial, TrialResult};
+use vibrissa_lab::report::{RunFigures, results_table, runs_page};
+use vibrissa_lab::results::{Provenance, RunResult};
+use vibrissa_lab::run::Run;
+use vibrissa_lab::trial::{Trial, TrialResult};
+use vibrissa_text::file::{CommandFiles, Output};
 
 /// Number of messages of a run that are printed.
 const MESSAGES_PRINTED: usize = 40;

@@ -22,13 +22,13 @@ use super::run_outputs::VideoOptions;
 use super::trials::{calibrated, say_calibrations};
 use super::values::parse_seed;
 use super::watch::watch;
-use crate::diagnostic::Source;
-use crate::file::{CommandFiles, Output};
-use crate::load::{GivenMismatch, LoadError, check_noise_seed};
-use crate::request::{Input, PolicyInput, TrialRequest};
-use crate::results::{Provenance, tick_lines};
-use crate::run::Run;
-use crate::trial::Trial;
+use vibrissa_lab::load::{GivenMismatch, LoadError, check_noise_seed};
+use vibrissa_lab::request::{Input, PolicyInput, TrialRequest};
+use vibrissa_lab::results::{Provenance, tick_lines};
+use vibrissa_lab::run::Run;
+use vibrissa_lab::trial::Trial;
+use vibrissa_text::diagnostic::Source;
+use vibrissa_text::file::{CommandFiles, Output};
 
 const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -15,22 +15,22 @@ use super::run::{Prepared, RunArguments};
 use super::trials::run_with_bar;
 #[cfg(feature = "render")]
 use super::values::{parse_picture_size, parse_video_rate, parse_video_speed};
-use crate::file::CommandFiles;
-#[cfg(any(feature = "recording", feature = "render"))]
-use crate::file::Output;
 #[cfg(feature = "live")]
 use crate::live::{Live, LiveWatcher, RunSetup};
-#[cfg(feature = "recording")]
-use crate::recording::Recorder;
-#[cfg(feature = "render")]
-use crate::scene::Scene;
-#[cfg(feature = "render")]
-use crate::trial::Trial;
-use crate::trial::TrialResult;
 #[cfg(feature = "viewer")]
 use crate::video::RunWindow;
 #[cfg(feature = "render")]
 use crate::video::{Film, Format, Settings, Studio};
+#[cfg(feature = "recording")]
+use vibrissa_lab::recording::Recorder;
+#[cfg(feature = "render")]
+use vibrissa_lab::trial::Trial;
+use vibrissa_lab::trial::TrialResult;
+use vibrissa_text::file::CommandFiles;
+#[cfg(any(feature = "recording", feature = "render"))]
+use vibrissa_text::file::Output;
+#[cfg(feature = "render")]
+use vibrissa_world::scene::Scene;
 
 /// The options of the video and of the window.
 #[cfg(any(feature = "render", feature = "viewer"))]

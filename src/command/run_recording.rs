@@ -9,7 +9,7 @@ use vibrissa_robot::recording::{Origin, RecordingWriter, Setup, WriteError, prog
 use vibrissa_runtime::machine::Artifact;
 
 use super::failure::Failure;
-use crate::file::{CommandFiles, Output};
+use vibrissa_text::file::{CommandFiles, Output};
 
 /// A recording that is written at the end of the run.
 pub(super) struct RunRecording {

@@ -4,19 +4,19 @@
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
-use crate::family::FamilyRun;
-use crate::inspect::{NearMiss, PolicyDifference, StopRecord, TransitionLine, ViolationLine};
-use crate::mujoco::Pruning;
-use crate::results::{Document, DriveResult, ReplayResult, RunResult, TickLine, Versioned};
-use crate::study::bench::BenchRow;
-use crate::study::compare::Comparison;
-use crate::study::estimators::EstimatorRow;
-use crate::study::pareto::Pareto;
-use crate::study::stress::StressRow;
-use crate::study::timing::TimingRow;
-use crate::study::worlds::WorldsRow;
-use crate::sweep::{Header, SweepLine, SweepSummary};
-use crate::tune::{Tuning, TuningHeader, TuningLine};
+use vibrissa_lab::family::FamilyRun;
+use vibrissa_lab::inspect::{NearMiss, PolicyDifference, StopRecord, TransitionLine, ViolationLine};
+use vibrissa_lab::results::{Document, DriveResult, ReplayResult, RunResult, TickLine, Versioned};
+use vibrissa_lab::study::bench::BenchRow;
+use vibrissa_lab::study::compare::Comparison;
+use vibrissa_lab::study::estimators::EstimatorRow;
+use vibrissa_lab::study::pareto::Pareto;
+use vibrissa_lab::study::stress::StressRow;
+use vibrissa_lab::study::timing::TimingRow;
+use vibrissa_lab::study::worlds::WorldsRow;
+use vibrissa_lab::sweep::{Header, SweepLine, SweepSummary};
+use vibrissa_lab::tune::{Tuning, TuningHeader, TuningLine};
+use vibrissa_mujoco::Pruning;
 
 use super::calibrate::Printed;
 use super::calibrate_array::MeasuredDocument;

@@ -10,9 +10,9 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::trials::make_directory;
-use crate::file::CommandFiles;
-use crate::load::{self, LoadError};
 use crate::services::{lines_of_messages, service_files};
+use vibrissa_lab::load::{self, LoadError};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa setup services generate thesis.machine --config array.yaml --out services\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";
 const LINES_EXAMPLE: &str = "Example:\n  mosquitto_sub -t 'vibrissa/#' -F '%U %t %p' > messages.txt\n  vibrissa setup services lines messages.txt | curl --data-binary @- 'http://localhost:8086/write?db=vibrissa'\n\nExit status: 0 done; 2 unusable input; 3 internal error; 130 interrupted.";

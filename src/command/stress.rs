@@ -11,10 +11,10 @@ use super::options::{Format, Jobs};
 use super::output;
 use super::progress::Progress;
 use super::provenance::{provenance, simulator};
-use crate::report::stress_tables;
-use crate::scene::WorldKind;
-use crate::study::stress::{StressRow, StressTask};
-use crate::trial::{Answer, StartError, Worker, answer, check_world, engine_version, stream_in_parallel};
+use vibrissa_lab::report::stress_tables;
+use vibrissa_lab::study::stress::{StressRow, StressTask};
+use vibrissa_lab::trial::{Answer, StartError, Worker, answer, check_world, engine_version, stream_in_parallel};
+use vibrissa_world::scene::WorldKind;
 
 const EXAMPLE: &str = "Example:\n  vibrissa study stress --jobs 2\n\nExit status: 0 every case had a regular outcome and finite numbers; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -14,13 +14,13 @@ use super::output;
 use super::progress::{Kept, Progress};
 use super::provenance::of_trials;
 use super::trials::make_directory;
-use crate::file::{CommandFiles, Output};
-use crate::report::{summary_table, sweep_page};
-use crate::results::{Provenance, SeedRange, add_seeds};
-use crate::sweep::{
+use vibrissa_lab::report::{summary_table, sweep_page};
+use vibrissa_lab::results::{Provenance, SeedRange, add_seeds};
+use vibrissa_lab::sweep::{
     Plan, Results, RunRow, ScenesOf, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line, run_rows,
 };
-use crate::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
+use vibrissa_lab::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
+use vibrissa_text::file::{CommandFiles, Output};
 
 const EXAMPLE: &str = "Example:\n  vibrissa sweep sweeps/corners.yaml --out out/corners\n\nExit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -16,13 +16,15 @@ use super::progress::Progress;
 use super::provenance::{of_runs, of_trials};
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
 use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar};
-use crate::diagnostic::{Diagnostic, Record, Source, Span, records};
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, SeedWithoutEffect, with_settings};
-use crate::policy::{PolicyTest, TestScenes};
-use crate::property::Regressions;
-use crate::results::{Document, RunResult};
-use crate::trial::{Trial, violations};
+use vibrissa_lab::load::{
+    self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, SeedWithoutEffect, with_settings,
+};
+use vibrissa_lab::property::Regressions;
+use vibrissa_lab::results::{Document, RunResult};
+use vibrissa_lab::trial::{Trial, violations};
+use vibrissa_language::{PolicyTest, TestScenes};
+use vibrissa_text::diagnostic::{Diagnostic, Record, Source, Span, records};
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
 
 const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n  vibrissa test mine.fsm --cases 200 --world quasistatic --out out\n  vibrissa test mine.fsm --mismatch scenarios/mismatch/plausible.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 

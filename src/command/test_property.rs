@@ -18,15 +18,15 @@ use super::output;
 use super::progress::Progress;
 use super::trials::{calibrated, inputs, report_events, report_violations};
 use super::values::{parse_cases, parse_seed};
-use crate::catalogue::Entry;
-use crate::catalogue::common::SPEED;
-use crate::diagnostic::{Diagnostic, Source};
-use crate::family::{Draw, Family, NoDraw};
-use crate::load::{GivenMismatch, with_settings};
-use crate::policy::{ParameterRange, PolicyTest};
-use crate::property::{Case, Drawn, Regressions, Search, Shrunk, Verdict};
-use crate::results::RunResult;
-use crate::trial::{Trial, TrialResult, in_parallel, violations};
+use vibrissa_declare::catalogue::Entry;
+use vibrissa_declare::catalogue::common::SPEED;
+use vibrissa_lab::family::{Draw, Family, NoDraw};
+use vibrissa_lab::load::{GivenMismatch, with_settings};
+use vibrissa_lab::property::{Case, Drawn, Regressions, Search, Shrunk, Verdict};
+use vibrissa_lab::results::RunResult;
+use vibrissa_lab::trial::{Trial, TrialResult, in_parallel, violations};
+use vibrissa_language::{ParameterRange, PolicyTest};
+use vibrissa_text::diagnostic::{Diagnostic, Source};
 
 /// The search for a case that violates a property.
 #[derive(Debug, Clone, Copy, Args)]

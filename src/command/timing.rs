@@ -11,9 +11,9 @@ use super::progress::Progress;
 use super::provenance::of_trials;
 use super::trials::{calibrated, say_calibrations};
 use super::values::parse_repeats;
-use crate::file::CommandFiles;
-use crate::report::timing_table;
-use crate::study::timing::{Timing, TimingRow};
+use vibrissa_lab::report::timing_table;
+use vibrissa_lab::study::timing::{Timing, TimingRow};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa study timing --repeats 5\n\nExit status: 0 all runs completed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -11,15 +11,17 @@ use super::failure::Failure;
 use super::options::Jobs;
 use super::output;
 use super::progress::Progress;
-use crate::diagnostic::printable;
-use crate::file::{CommandFiles, Output, OutputError};
-use crate::load::GivenMismatch;
-use crate::report::{RunFigures, retrieval_picture};
-use crate::results::{Collisions, Document, Ending, Failsafes, Inclination, Provenance, RunResult, WhiskerResponse};
-use crate::run::{Trace, Watcher};
-use crate::scene::{Outcome, Violation};
-use crate::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
-use crate::world::World;
+use vibrissa_lab::load::GivenMismatch;
+use vibrissa_lab::report::{RunFigures, retrieval_picture};
+use vibrissa_lab::results::{
+    Collisions, Document, Ending, Failsafes, Inclination, Provenance, RunResult, WhiskerResponse,
+};
+use vibrissa_lab::run::{Trace, Watcher};
+use vibrissa_lab::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
+use vibrissa_text::diagnostic::printable;
+use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_world::scene::{Outcome, Violation};
+use vibrissa_world::world::World;
 
 /// The kept part of a trial's result. A trace is large.
 pub(super) struct Finished {

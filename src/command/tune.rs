@@ -14,16 +14,16 @@ use super::output;
 use super::trials::make_directory;
 use super::tune_runs::{TuningRuns, TuningWork};
 use super::values::{parse_runs, parse_seed};
-use crate::family::Family;
-use crate::file::CommandFiles;
-use crate::load;
-use crate::policy::with_defaults;
-use crate::report::tuning_tables;
-use crate::trial::{engine_version, short_hash};
-use crate::tune::{
+use vibrissa_lab::family::Family;
+use vibrissa_lab::load;
+use vibrissa_lab::report::tuning_tables;
+use vibrissa_lab::trial::{engine_version, short_hash};
+use vibrissa_lab::tune::{
     Axis, Candidate, Evolution, Objective, Term, TunedFigures, TunedParameter, TunedRun, TunedValues, Tuning,
     TuningHeader, TuningScene,
 };
+use vibrissa_language::with_defaults;
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa tune policies/thesis.fsm --param target --param light --scene polygon --world quasistatic\n  vibrissa tune mine.fsm --scene scenarios/box.yaml --held-out scenarios/octagon.yaml --write tuned.fsm\n\nExit status: 0 done; 1 a held-out run under the tuned values did not pass; 2 unusable input; 3 internal error; 130 interrupted.";
 

@@ -13,11 +13,11 @@ use super::output;
 use super::progress::{Kept, Progress};
 use super::provenance::of_trials;
 use super::trials::calibrated;
-use crate::load::GivenMismatch;
-use crate::results::{Provenance, add_seed};
-use crate::sweep::Results;
-use crate::trial::{Trial, stream_in_parallel};
-use crate::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
+use vibrissa_lab::load::GivenMismatch;
+use vibrissa_lab::results::{Provenance, add_seed};
+use vibrissa_lab::sweep::Results;
+use vibrissa_lab::trial::{Trial, stream_in_parallel};
+use vibrissa_lab::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
 
 /// All that the runs of a tuning have in common.
 #[derive(Clone, Copy)]

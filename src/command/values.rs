@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use crate::trial::processors;
+use vibrissa_lab::trial::processors;
 use vibrissa_runtime::machine::NESTING_LIMIT;
 use vibrissa_runtime::units::{Dimension, parse_quantity};
 

@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 
-use crate::file::CommandFiles;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
-use crate::results::Provenance;
-use crate::run::{Trace, Watcher as RunWatcher};
-use crate::score::Statistics;
-use crate::trial::{ExecuteError, Trial, TrialResult};
+use vibrissa_lab::results::Provenance;
+use vibrissa_lab::run::{Trace, Watcher as RunWatcher};
+use vibrissa_lab::score::Statistics;
+use vibrissa_lab::trial::{ExecuteError, Trial, TrialResult};
+use vibrissa_text::file::CommandFiles;
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -25,7 +25,7 @@ use super::provenance::of_trials;
 use super::reports::Reports;
 use super::run::{self, Prepared, RunArguments};
 use super::trials::{make_directory, run_each_second, seconds};
-use crate::load::LoadError;
+use vibrissa_lab::load::LoadError;
 
 /// Editors write a file in several steps. They are done if nothing has happened for this time.
 const QUIET: Duration = Duration::from_millis(15);

@@ -12,14 +12,14 @@ use super::options::{ArrayOptions, PruneOption};
 use super::output;
 use super::sweep::Pictures;
 use super::trials::finished;
-use crate::diagnostic::{Colour, terminal};
-use crate::file::CommandFiles;
-use crate::load::LoadError;
-use crate::results::Document;
-use crate::scene::Violation;
-use crate::study::stress::StressTask;
-use crate::sweep::{Plan, Shard, SweepLine, SweepRun};
-use crate::trial::{StartError, engine_version};
+use vibrissa_lab::load::LoadError;
+use vibrissa_lab::results::Document;
+use vibrissa_lab::study::stress::StressTask;
+use vibrissa_lab::sweep::{Plan, Shard, SweepLine, SweepRun};
+use vibrissa_lab::trial::{StartError, engine_version};
+use vibrissa_text::diagnostic::{Colour, terminal};
+use vibrissa_text::file::CommandFiles;
+use vibrissa_world::scene::Violation;
 
 /// The arguments of `vibrissa worker`.
 #[derive(Debug, Args)]

@@ -11,13 +11,13 @@ use super::options::{Format, Jobs, Policies};
 use super::output;
 use super::progress::Progress;
 use super::provenance::{provenance, simulator};
-use crate::built_in::{SCENARIOS, TextFile};
-use crate::file::CommandFiles;
-use crate::load;
-use crate::report::worlds_table;
-use crate::scene::{Scene, WorldKind};
-use crate::study::worlds::{Simulation, compare_worlds};
-use crate::trial::{check_world, in_parallel};
+use vibrissa_lab::built_in::{SCENARIOS, TextFile};
+use vibrissa_lab::load;
+use vibrissa_lab::report::worlds_table;
+use vibrissa_lab::study::worlds::{Simulation, compare_worlds};
+use vibrissa_lab::trial::{check_world, in_parallel};
+use vibrissa_text::file::CommandFiles;
+use vibrissa_world::scene::{Scene, WorldKind};
 
 const EXAMPLE: &str = "Example:\n  vibrissa study worlds --against quasistatic,peer_cable\n\nExit status: 0 done, however far the worlds differ; 2 unusable input; 3 internal error; 130 interrupted.";
 

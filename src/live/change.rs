@@ -6,8 +6,8 @@ use std::sync::Arc;
 use vibrissa_runtime::machine::Program;
 
 use super::message::ParameterInfo;
-use crate::inspect::Breakpoints;
-use crate::policy::explain::Threshold;
+use vibrissa_lab::inspect::Breakpoints;
+use vibrissa_language::explain::Threshold;
 
 /// The values that may be changed.
 #[derive(Debug, Clone, Default)]

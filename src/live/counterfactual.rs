@@ -10,8 +10,8 @@ use vibrissa_runtime::signal::{Command, Sample};
 
 use super::log::{RunLog, TickResult};
 use super::message::{CounterfactualFrame, CounterfactualKind, FirstDifference, Piece};
-use crate::run::{Ending, Step, Trace, Watcher};
-use crate::trial::Trial;
+use vibrissa_lab::run::{Ending, Step, Trace, Watcher};
+use vibrissa_lab::trial::Trial;
 
 /// The number of ticks in a piece. The first one is shorter, so that an answer appears at once.
 const PIECE: usize = 300;
@@ -221,7 +221,7 @@ fn closed_loop<S: FnMut(Piece) -> bool>(question: &Question, mut answer: Answer<
         match step {
             Step::Running => {}
             Step::Ended(ending) => break ending,
-            Step::Interrupted => break Ending { outcome: crate::scene::Outcome::Failed, reason: None },
+            Step::Interrupted => break Ending { outcome: vibrissa_world::scene::Outcome::Failed, reason: None },
         }
         tick += 1;
     };

@@ -15,9 +15,9 @@ use super::hub::Hub;
 use super::log::RunLog;
 use super::message::{Frame, GuardFrame, PartInfo};
 use super::socket::Socket;
-use crate::geometry::Point2;
-use crate::inspect::{GuardRecord, LeafRecord, Margin};
-use crate::recording::Channels;
+use vibrissa_lab::inspect::{GuardRecord, LeafRecord, Margin};
+use vibrissa_lab::recording::Channels;
+use vibrissa_world::geometry::Point2;
 
 /// The names of the protocol.
 pub(super) const PROTOCOLS: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];

@@ -6,11 +6,11 @@ use super::guards::GuardNumbers;
 use super::log::RunLog;
 use super::message::{ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
 use super::shadow::Shadow;
-use crate::geometry::{Point2, Pose, unit};
-use crate::recording::shaft_points;
-use crate::run::{PlotRecord, TickRecord, Trace};
-use crate::scene::Truth;
-use crate::score::CoverageTracker;
+use vibrissa_lab::recording::shaft_points;
+use vibrissa_lab::run::{PlotRecord, TickRecord, Trace};
+use vibrissa_lab::score::CoverageTracker;
+use vibrissa_world::geometry::{Point2, Pose, unit};
+use vibrissa_world::scene::Truth;
 
 /// Shown coordinates are multiples of this (m).
 const RESOLUTION: f64 = 1e-6;

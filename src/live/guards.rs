@@ -2,7 +2,7 @@
 
 use vibrissa_runtime::machine::TransitionId;
 
-use crate::inspect::{Breakpoint, Breakpoints};
+use vibrissa_lab::inspect::{Breakpoint, Breakpoints};
 
 /// Gives each guard of a policy a number: global ones first, then those of every state. Guards of breakpoints have none.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

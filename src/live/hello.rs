@@ -13,12 +13,11 @@ use super::message::{
     StateInfo, TransitionInfo, WhiskerInfo,
 };
 use super::setup::RunSetup;
-use crate::geometry::Contour;
-use crate::inspect::{Breakpoint, Breakpoints};
-use crate::policy;
-use crate::policy::explain::{Explained, Judged};
-use crate::recording::outline_points;
-use crate::scene::Scene;
+use vibrissa_lab::inspect::{Breakpoint, Breakpoints};
+use vibrissa_lab::recording::outline_points;
+use vibrissa_language::explain::{Explained, Judged};
+use vibrissa_world::geometry::Contour;
+use vibrissa_world::scene::Scene;
 
 /// The first message of a run under `program`, the numbers of its guards and the values that may be changed. `policy` is the
 /// explained policy, if it has a text, and `bound` are the whiskers that it binds, by their indices in the rig.
@@ -95,7 +94,7 @@ fn guards(policy: &Explained, numbers: &GuardNumbers) -> Vec<GuardInfo> {
 
 /// The behaviours of states, with their arguments, by the indices of the states.
 fn behaviours(setup: &RunSetup) -> HashMap<usize, String> {
-    let chart = setup.policy.as_ref().and_then(|text| policy::chart(text).ok());
+    let chart = setup.policy.as_ref().and_then(|text| vibrissa_language::chart(text).ok());
     let states = chart.into_iter().flat_map(|chart| chart.states);
     states.filter_map(|state| Some((state.index, state.behaviour?))).collect()
 }

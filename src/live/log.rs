@@ -12,11 +12,11 @@ use super::message::{Frame, Hello};
 use super::sample_store::SampleStore;
 use super::setup::RunSetup;
 use super::shadow::Shadow;
-use crate::diagnostic::Source;
-use crate::recording::RecordedFrame;
-use crate::run::Trace;
-use crate::scene::Scene;
-use crate::trial::Trial;
+use vibrissa_lab::recording::RecordedFrame;
+use vibrissa_lab::run::Trace;
+use vibrissa_lab::trial::Trial;
+use vibrissa_text::diagnostic::Source;
+use vibrissa_world::scene::Scene;
 
 /// Number of ticks between copies of the control loop. A counterfactual executes at most as many ticks before its own.
 const CHECKPOINT_TICKS: usize = 256;

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use super::setup::RunSetup;
-use crate::geometry::{Point2, Pose};
-use crate::recording::RunRecording;
-use crate::run::{Run, Watcher, drive};
-use crate::scene::{Goal, Stop};
-use crate::trial::Trial;
-use crate::world::{Fault, World};
+use vibrissa_lab::recording::RunRecording;
+use vibrissa_lab::run::{Run, Watcher, drive};
+use vibrissa_lab::trial::Trial;
 use vibrissa_runtime::control::{BindError, Control};
 use vibrissa_runtime::signal::{Command, Sample};
+use vibrissa_world::geometry::{Point2, Pose};
+use vibrissa_world::scene::{Goal, Stop};
+use vibrissa_world::world::{Fault, World};
 
 /// A recording that is replayed for a page.
 #[derive(Debug)]

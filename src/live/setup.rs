@@ -5,10 +5,10 @@ use std::sync::Arc;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::rig::Rig;
 
-use crate::diagnostic::Source;
-use crate::geometry::Pose;
-use crate::scene::Scene;
-use crate::trial::Trial;
+use vibrissa_lab::trial::Trial;
+use vibrissa_text::diagnostic::Source;
+use vibrissa_world::geometry::Pose;
+use vibrissa_world::scene::Scene;
 
 /// What a page has to know of a run before it begins.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use vibrissa_runtime::signal::{Command, Sample};
 
 use super::guards::GuardNumbers;
 use super::message::GuardFrame;
-use crate::inspect::{BreakpointTick, BreakpointWatch, Breakpoints};
+use vibrissa_lab::inspect::{BreakpointTick, BreakpointWatch, Breakpoints};
 
 /// A control loop with the same samples as that of the run. If the policy has a text, its program explains the guards.
 #[derive(Debug, Clone)]

@@ -16,12 +16,12 @@ use super::log::{Executed, RunLog, TickResult};
 use super::message::{BreakpointInfo, Timing};
 use super::setup::RunSetup;
 use super::shadow::Shadow;
-use crate::diagnostic::{Diagnostic, Source};
-use crate::inspect::Breakpoints;
-use crate::recording::RecordedFrame;
-use crate::results::Ending;
-use crate::run::{Run, Trace, Watcher};
-use crate::trial::TrialResult;
+use vibrissa_lab::inspect::Breakpoints;
+use vibrissa_lab::recording::RecordedFrame;
+use vibrissa_lab::results::Ending;
+use vibrissa_lab::run::{Run, Trace, Watcher};
+use vibrissa_lab::trial::TrialResult;
+use vibrissa_text::diagnostic::{Diagnostic, Source};
 
 /// Passes the ticks of a run on to the page, and makes the run wait where a user asked for it.
 pub struct LiveWatcher<'i> {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::mujoco::visual::RenderError;
+use vibrissa_mujoco::visual::RenderError;
 
 /// A video that cannot be made.
 #[derive(Debug, thiserror::Error)]

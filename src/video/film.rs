@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use vibrissa_runtime::machine::Observer;
 
-use crate::geometry::Pose;
-use crate::run::{Trace, Watcher};
-use crate::world::{Posture, World};
+use vibrissa_lab::run::{Trace, Watcher};
+use vibrissa_world::geometry::Pose;
+use vibrissa_world::world::{Posture, World};
 
 use super::settings::Settings;
 

@@ -1,12 +1,12 @@
 //! The strokes of a run: shafts, trails of the tips and of the platform, and the estimated contour.
 
-use crate::geometry::{BoundingBox, Point2, Pose, unit};
-use crate::mujoco::visual::{Drawing, Stroke, top};
-use crate::report::WHISKERS;
-use crate::run::Trace;
-use crate::scene::Scene;
-use crate::world::{Posture, raised};
+use vibrissa_lab::report::WHISKERS;
+use vibrissa_lab::run::Trace;
+use vibrissa_mujoco::visual::{Drawing, Stroke, top};
 use vibrissa_runtime::rig::Rig;
+use vibrissa_world::geometry::{BoundingBox, Point2, Pose, unit};
+use vibrissa_world::scene::Scene;
+use vibrissa_world::world::{Posture, raised};
 
 use super::trail::Trail;
 

@@ -1,8 +1,8 @@
 //! Draws a film, and encodes it.
 
-use crate::mujoco::visual::{Camera, OffscreenRenderer, top};
-use crate::run::Trace;
-use crate::scene::Scene;
+use vibrissa_lab::run::Trace;
+use vibrissa_mujoco::visual::{Camera, OffscreenRenderer, top};
+use vibrissa_world::scene::Scene;
 
 use super::encoder::Encoder;
 use super::error::VideoError;

@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use vibrissa_runtime::machine::Observer;
 
-use crate::mujoco::WindowError;
-use crate::mujoco::visual::{Camera, Shown, Window, top};
-use crate::run::{Trace, Watcher};
-use crate::scene::Scene;
-use crate::world::World;
+use vibrissa_lab::run::{Trace, Watcher};
+use vibrissa_mujoco::WindowError;
+use vibrissa_mujoco::visual::{Camera, Shown, Window, top};
+use vibrissa_world::scene::Scene;
+use vibrissa_world::world::World;
 
 use super::sketch::{Sketch, area};
 

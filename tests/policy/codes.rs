@@ -38,7 +38,8 @@ fn codes_between<'t>(text: &'t str, before: &'t str, behind: &'t str) -> impl It
 /// The sources without the tests in them.
 fn sources() -> Vec<String> {
     let product = |text: String| text.split("#[cfg(test)]").next().unwrap().to_owned();
-    texts("src", ".rs").into_iter().map(product).collect()
+    let folders = ["crates/language/src", "crates/world/src", "crates/lab/src", "src"];
+    folders.iter().flat_map(|folder| texts(folder, ".rs")).map(product).collect()
 }
 
 /// What the snapshots show: codes with their severities.

@@ -21,7 +21,6 @@ Commands:
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
             --from K       begin with check number K, after the cause of a failure is corrected
-  imports check that modules import only what ARCHITECTURE.md allows
   prose   measure the sentences and terms of the documentation
   links   follow the links between the pages of the documentation
   book    build the documentation as a book in target/book
@@ -53,7 +52,6 @@ pub(crate) enum Command {
     Test {
         from: usize,
     },
-    Imports,
     Prose,
     Links,
     Book,
@@ -100,7 +98,6 @@ impl Command {
             "setup" => return parse_setup(arguments),
             "demo" => Self::Demo,
             "test" => return parse_test(arguments),
-            "imports" => Self::Imports,
             "prose" => Self::Prose,
             "links" => Self::Links,
             "book" => Self::Book,

@@ -11,7 +11,6 @@ use crate::book::{self, BookError};
 use crate::cargo::{NotStarted, cargo, target_directory};
 use crate::checkout::Checkout;
 use crate::comments::{self, CommentsError};
-use crate::imports::{self, ImportsError};
 use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
 use crate::python::{self, PythonError};
@@ -30,7 +29,6 @@ enum Work {
     Cargo(CargoRun),
     CoreIsFreeOfMujoco,
     Setup,
-    Imports,
     Runtime,
     Aarch64,
     Prose,
@@ -67,8 +65,6 @@ pub(crate) enum CheckError {
     #[error("cannot list or start the examples: {0}")]
     Examples(io::Error),
     #[error(transparent)]
-    Imports(#[from] ImportsError),
-    #[error(transparent)]
     Runtime(#[from] RuntimeError),
     #[error(transparent)]
     Prose(#[from] ProseError),
@@ -98,12 +94,11 @@ const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 /// long for each change, so they are among the nightly ones (.github/workflows/nightly.yml).
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation.
-const CHECKS: [Check; 21] = [
+const CHECKS: [Check; 20] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
     Check { title: "published figures", work: Work::Results },
-    Check { title: "order of the modules", work: Work::Imports },
     Check { title: "dependencies and targets of the runtime", work: Work::Runtime },
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
     check_in(
@@ -114,6 +109,16 @@ const CHECKS: [Check; 21] = [
             "clippy",
             "--package",
             "vibrissa",
+            "--package",
+            "vibrissa-text",
+            "--package",
+            "vibrissa-language",
+            "--package",
+            "vibrissa-world",
+            "--package",
+            "vibrissa-mujoco",
+            "--package",
+            "vibrissa-lab",
             // It has no test of Cargo. But with it, dependencies have the features of the whole workspace.
             "--package",
             "vibrissa-python",
@@ -135,7 +140,7 @@ const CHECKS: [Check; 21] = [
     check_in(
         &[("RUSTDOCFLAGS", "--deny=warnings")],
         "documentation",
-        &["doc", "--package", "vibrissa", "--package", "vibrissa-runtime", "--no-deps"],
+        &["doc", "--workspace", "--exclude", "xtask", "--exclude", "vibrissa-python", "--no-deps", "--lib"],
     ),
     // Cargo would need the runtime from a registry to build the package, or to write its lock file.
     check(
@@ -207,7 +212,6 @@ impl Check {
             Work::Cargo(run) => run.succeed(self.title, root),
             Work::CoreIsFreeOfMujoco => core_is_free_of_mujoco(self.title, root),
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
-            Work::Imports => Ok(imports::check(root)?),
             Work::Runtime => Ok(runtime::check(root)?),
             Work::Aarch64 => Ok(runtime::test_on_aarch64(root, SAME_CASES)?),
             Work::Prose => {

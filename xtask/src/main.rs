@@ -13,7 +13,6 @@ mod cross;
 mod demo;
 mod fuzz;
 mod hash;
-mod imports;
 mod json;
 mod links;
 mod nightly;
@@ -32,7 +31,7 @@ mod standard_library;
 mod web;
 mod wheel;
 // The program and the pages state the same intervals.
-#[path = "../../src/results/wilson.rs"]
+#[path = "../../crates/lab/src/results/wilson.rs"]
 mod wilson;
 
 use std::env;
@@ -62,7 +61,6 @@ fn main() -> ExitCode {
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
         Command::Test { from } => status(checks::run(&root, from)),
         Command::Prose => prose(&root),
-        Command::Imports => status(imports::check(&root)),
         Command::Links => status(links::check(&root)),
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),

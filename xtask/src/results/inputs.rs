@@ -162,11 +162,45 @@ fn plain<'a>(lines: impl Iterator<Item = &'a str>) -> String {
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
-/// The code of a Rust file: no comments of whole lines, no layout, no unit tests, which end the file.
+/// The code of a Rust file: no comments and attributes of whole lines, no layout, no unit tests, which end the file. Nor has it what a
+/// move of code changes: imports, the crate and the module before a name, and who may see an item.
 fn rust(text: &str) -> String {
     let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-    lines.flat_map(str::split_whitespace).flat_map(|word| [word, " "]).collect()
+    let lines = code.lines().map(str::trim).filter(|line| !line.starts_with("//") && !line.starts_with("#["));
+    let mut is_import = false;
+    let mut kept = String::new();
+    for line in lines {
+        is_import |= ["use ", "pub use ", "pub(crate) use "].iter().any(|start| line.starts_with(start));
+        if !is_import {
+            kept += line;
+            kept.push(' ');
+        }
+        is_import &= !line.ends_with(';');
+    }
+    // A line that is broken has a comma after its last part, and no blanks there.
+    let joined: String = kept.replace("pub(crate)", "pub").split_whitespace().collect();
+    let joined = [(",)", ")"), (",]", "]"), (",}", "}")].iter().fold(joined, |text, (from, to)| text.replace(from, to));
+    without_paths(&joined)
+}
+
+/// A text of code without the crates of this project and the words for modules before names.
+fn without_paths(code: &str) -> String {
+    let is_of_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+    let mut parts = code.split("::").peekable();
+    let mut text = String::with_capacity(code.len());
+    while let Some(part) = parts.next() {
+        let head = part.trim_end_matches(is_of_word);
+        let word = &part[head.len()..];
+        if parts.peek().is_none() {
+            text += part;
+        } else if matches!(word, "crate" | "super") || word.starts_with("vibrissa_") {
+            text += head;
+        } else {
+            text += part;
+            text += "::";
+        }
+    }
+    text
 }
 
 /// The code of a policy: no comments, no layout, which has no meaning in the grammar, no tests and no properties.
@@ -262,6 +296,14 @@ mod tests {
     }
 
     #[test]
+    fn a_move_of_code_to_another_crate_changes_no_figure() {
+        let code = "use crate::low::{\n    One,\n};\n\n#[must_use]\npub(crate) fn a(b: crate::low::B) -> C { d(super::E::F, 1) }\n";
+        let moved = "use vibrissa_low::One;\npub fn a(\n    b: vibrissa_low::low::B,\n) -> C {\n    d(E::F, 1)\n}\n";
+        assert_eq!(rust(code), rust(moved));
+        assert_ne!(rust(code), rust(&moved.replace("E::F", "E::G")));
+    }
+
+    #[test]
     fn a_command_depends_on_the_scenes_policies_and_libraries_that_it_runs() -> Result<(), StampError> {
         let of = |command: &str| files(root(), &[command]);
         let bench = of("bench --json")?;
@@ -286,7 +328,7 @@ mod tests {
 
     #[test]
     fn the_scenes_of_the_bench_are_those_that_the_program_contains() {
-        let built_in = fs::read_to_string(root().join("src/built_in.rs")).unwrap_or_default();
+        let built_in = fs::read_to_string(root().join("crates/lab/src/built_in.rs")).unwrap_or_default();
         let named: Vec<&str> = built_in.split('"').filter(|word| word.starts_with("scenarios/")).collect();
         let scenes: Vec<String> = BENCH.map(|scene| format!("scenarios/{scene}.yaml")).into();
         assert_eq!(named[..BENCH.len()], scenes);

@@ -43,9 +43,9 @@ impl Page {
 /// The run whose picture README.md shows.
 const PICTURE: &str = "run scenarios/disk.yaml --out out/picture --json";
 /// The code that draws random scenes.
-const SCENES: [&str; 2] = ["src/catalogue", "src/family"];
+const SCENES: [&str; 2] = ["crates/declare/src/catalogue", "crates/lab/src/family"];
 /// The code that calibrates.
-const CALIBRATION: [&str; 2] = ["crates/runtime/src/calibration", "src/calibration"];
+const CALIBRATION: [&str; 2] = ["crates/runtime/src/calibration", "crates/lab/src/calibration"];
 
 /// The arguments of the runs with the array of the thesis under a policy in a simulator.
 macro_rules! thesis_array {
@@ -88,7 +88,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Picture of the disk",
         about: "The picture that README.md shows.",
         commands: &[PICTURE],
-        code: &["src/report/picture"],
+        code: &["crates/lab/src/report/picture"],
         has_times: false,
         is_slow: false,
         content: Content::Picture { command: PICTURE, made: "disk.svg", shown: "docs/disk.svg" },
@@ -118,7 +118,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Run times",
         about: "[Speed](../bench.md#vibrissa-study-timing---repeats-n) of both simulators, medians of three runs of each scene.",
         commands: &["study timing --repeats 3 --json", "study timing --repeats 3 --world quasistatic --json"],
-        code: &["src/study/timing.rs"],
+        code: &["crates/lab/src/study/timing.rs"],
         has_times: true,
         is_slow: false,
         content: Content::Tables(tables::timing),
@@ -145,7 +145,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Results of the simulator comparison",
         about: "The quasi-static simulator [compared](../worlds.md#worlds-against-each-other) with chains of links in MuJoCo.",
         commands: &["study worlds --against quasistatic --json"],
-        code: &["src/study/worlds"],
+        code: &["crates/lab/src/study/worlds"],
         has_times: false,
         is_slow: false,
         content: Content::Tables(tables::worlds),
@@ -161,7 +161,7 @@ pub(super) const PAGES: [Page; 15] = [
             "run scenarios/more/peer-box.yaml scenarios/more/peer-octagon.yaml --set speed=20mm/s --set careful=15mm/s --set clearance=20mm --set radius=12mm --json",
             "compare policies/baseline.fsm policies/thesis.fsm policies/vibrissa.fsm --seeds 4 --jitter 20mm --jitter-heading 10deg --json",
         ],
-        code: &["src/study/compare"],
+        code: &["crates/lab/src/study/compare"],
         has_times: false,
         is_slow: false,
         content: Content::Tables(tables::policies),
@@ -171,7 +171,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Results of run time against error",
         about: "[Settings of the simulators and contact estimators](../pareto.md) on the disk under both built-in policies, medians of three rounds. The mismatch is that of `scenarios/mismatch/plausible.yaml`, after a calibration.",
         commands: &["study pareto --json"],
-        code: &["src/study/pareto", "crates/runtime/src/calibration", "src/calibration"],
+        code: &["crates/lab/src/study/pareto", "crates/runtime/src/calibration", "crates/lab/src/calibration"],
         has_times: true,
         is_slow: false,
         content: Content::Tables(tables::pareto),
@@ -197,7 +197,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Results of the stress tests",
         about: "[Stress tests](../stress.md) of both simulators, and their largest stable steps.",
         commands: &["study stress --json"],
-        code: &["src/study/stress", "src/study/stress/straight.fsm"],
+        code: &["crates/lab/src/study/stress", "crates/lab/src/study/stress/straight.fsm"],
         has_times: false,
         is_slow: false,
         content: Content::Tables(tables::stress),
@@ -207,7 +207,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Results of the contact estimators",
         about: "All [contact estimators](../bench.md#vibrissa-study-estimators) on the samples of the same runs, with three strengths of noise.",
         commands: &["study estimators --json"],
-        code: &["src/study/estimators"],
+        code: &["crates/lab/src/study/estimators"],
         has_times: true,
         is_slow: false,
         content: Content::Tables(sums::estimators),
@@ -217,7 +217,7 @@ pub(super) const PAGES: [Page; 15] = [
         title: "Results of the peer's cable",
         about: "The [peer's cable](../worlds.md#the-peers-cable) compared with chains of links in MuJoCo, under `thesis.fsm`.",
         commands: &["study worlds --against peer_cable --policy policies/thesis.fsm --json"],
-        code: &["src/study/worlds"],
+        code: &["crates/lab/src/study/worlds"],
         has_times: false,
         is_slow: true,
         content: Content::Tables(tables::worlds),
@@ -254,7 +254,7 @@ pub(super) const PAGES: [Page; 15] = [
             "bench --mismatch scenarios/mismatch/hard.yaml --uncalibrated --json",
             "sweep sweeps/mismatch.yaml --uncalibrated --out out/mismatch --json",
         ],
-        code: &["crates/runtime/src/calibration", "src/calibration", "src/mismatch"],
+        code: &["crates/runtime/src/calibration", "crates/lab/src/calibration", "crates/world/src/mismatch"],
         has_times: false,
         is_slow: true,
         content: Content::Tables(mismatch::page),

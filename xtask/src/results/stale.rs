@@ -172,7 +172,7 @@ mod tests {
             ("sweeps/turns.yaml", "30 deg", "31 deg", "docs/results/reproduction.md"),
             ("policies/lib/contact.fsm", "let ", "let x = 1 let ", "docs/results/policies.md"),
             ("snapshots/metrics/thesis-mujoco.txt", "completed", "timeout", "docs/results/cable.md"),
-            ("src/family/draw.rs", "fn ", "fn x() {} fn ", "docs/results/families.md"),
+            ("crates/lab/src/family/draw.rs", "fn ", "fn x() {} fn ", "docs/results/families.md"),
             ("docs/results/stress.md", "commands ", "commands 0", "docs/results/stress.md"),
             ("docs/results/worlds.md", "<!--", "", "docs/results/worlds.md"),
             ("README.md", "| – |", "| 0.1 |", "README.md"),

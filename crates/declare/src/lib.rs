@@ -1,0 +1,6 @@
+//! Facts that several crates of Vibrissa share. Each fact stands here once, and everything else is derived from it.
+//!
+//! - [`catalogue`] names the families of scenes and their parameters.
+
+#[expect(missing_docs, reason = "the meaning of a parameter is a part of its value")]
+pub mod catalogue;

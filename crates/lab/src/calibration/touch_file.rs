@@ -1,0 +1,239 @@
+//! Files of touches of a known object as comma-separated values.
+
+use csv::{ReaderBuilder, Trim, Writer};
+use serde::{Deserialize, Serialize};
+use vibrissa_runtime::calibration::TouchReading;
+use vibrissa_runtime::mechanics::Obstacle;
+
+use super::contact_sets::SetsError;
+use vibrissa_world::geometry::{Point2, Pose};
+
+/// Largest number of touches in a file.
+const MOST: usize = 1000;
+/// Largest magnitudes of a length (mm), an angle (degrees) and a base angle (µrad).
+const FAR: f64 = 1e5;
+const TURNS: f64 = 3600.0;
+const BENT: f64 = 1e6;
+
+/// A touch as a line of a file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    whisker: String,
+    body_x_mm: f64,
+    body_y_mm: f64,
+    heading_deg: f64,
+    object: Object,
+    object_x_mm: f64,
+    object_y_mm: f64,
+    radius_mm: Option<f64>,
+    normal_deg: Option<f64>,
+    side: Side,
+    base_angle_urad: f64,
+    in_air_urad: f64,
+    deviation_urad: f64,
+}
+
+/// The touched part of the object.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Object {
+    Pin,
+    Edge,
+    Face,
+    UnknownFace,
+}
+
+/// The side to which the object bends the whisker.
+#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Side {
+    Left,
+    Right,
+}
+
+/// Reads touches from comma-separated values, each with the name of its whisker. Lines that begin with `#` are ignored.
+///
+/// # Errors
+/// [`SetsError`] with the first invalid line.
+pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsError> {
+    let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
+    let mut touches = Vec::new();
+    let mut rows = reader.deserialize::<Row>();
+    while let Some(row) = rows.next() {
+        let line = rows.reader().position().line();
+        let row = row.map_err(|error| {
+            let line = error.position().map_or(1, csv::Position::line);
+            SetsError::new(line, cause(&error))
+        })?;
+        if touches.len() == MOST {
+            return Err(SetsError::new(line, format!("there are more than {MOST} touches")));
+        }
+        touches.push(row.touch().map_err(|reason| SetsError::new(line.saturating_sub(1), reason))?);
+    }
+    Ok(touches)
+}
+
+/// The touches of whiskers as text that [`read_touches`] reads.
+///
+/// # Errors
+/// [`csv::Error`] if a value cannot be written.
+pub fn write_touches<'t>(touches: impl Iterator<Item = (&'t str, &'t TouchReading)>) -> Result<String, csv::Error> {
+    let mut writer = Writer::from_writer(Vec::new());
+    for (whisker, touch) in touches {
+        writer.serialize(Row::of(whisker, touch))?;
+    }
+    let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// What is wrong with a line.
+fn cause(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::Deserialize { err, .. } => err.to_string(),
+        _ => "every line must be UTF-8 text with as many values as the header has names".to_owned(),
+    }
+}
+
+impl Row {
+    fn of(whisker: &str, touch: &TouchReading) -> Self {
+        let (object, point, radius, normal) = match touch.obstacle {
+            Obstacle::Pin { centre, radius: 0.0 } => (Object::Edge, centre, None, None),
+            Obstacle::Pin { centre, radius } => (Object::Pin, centre, Some(radius), None),
+            Obstacle::Face { point, normal } if touch.is_known => (Object::Face, point, None, Some(normal)),
+            Obstacle::Face { point, normal } => (Object::UnknownFace, point, None, Some(normal)),
+        };
+        Self {
+            whisker: whisker.to_owned(),
+            body_x_mm: 1e3 * touch.body.position.x,
+            body_y_mm: 1e3 * touch.body.position.y,
+            heading_deg: touch.body.heading.to_degrees(),
+            object,
+            object_x_mm: 1e3 * point.x,
+            object_y_mm: 1e3 * point.y,
+            radius_mm: radius.map(|radius| 1e3 * radius),
+            normal_deg: normal.map(f64::to_degrees),
+            side: if touch.side > 0.0 { Side::Left } else { Side::Right },
+            base_angle_urad: 1e6 * touch.base_angle,
+            in_air_urad: 1e6 * touch.in_air,
+            deviation_urad: 1e6 * touch.deviation,
+        }
+    }
+
+    /// The touch of the line, with the name of its whisker.
+    fn touch(self) -> Result<(String, TouchReading), String> {
+        let within = |name: &str, value: f64, most: f64| {
+            if value.abs() <= most { Ok(value) } else { Err(format!("`{name}` must be from -{most} to {most}")) }
+        };
+        let millimetres = |name, value| within(name, value, FAR).map(|value| 1e-3 * value);
+        let degrees = |name, value| within(name, value, TURNS).map(f64::to_radians);
+        let microradians = |name, value| within(name, value, BENT).map(|value| 1e-6 * value);
+        let point =
+            Point2::new(millimetres("object_x_mm", self.object_x_mm)?, millimetres("object_y_mm", self.object_y_mm)?);
+        let obstacle = match (self.object, self.radius_mm, self.normal_deg) {
+            (Object::Pin, Some(radius), None) if radius > 0.0 => {
+                Obstacle::Pin { centre: point, radius: millimetres("radius_mm", radius)? }
+            }
+            (Object::Pin, ..) => return Err("a pin needs `radius_mm` above 0, and no `normal_deg`".to_owned()),
+            (Object::Edge, None, None) => Obstacle::Pin { centre: point, radius: 0.0 },
+            (Object::Edge, ..) => return Err("an edge has neither `radius_mm` nor `normal_deg`".to_owned()),
+            (Object::Face | Object::UnknownFace, None, Some(normal)) => {
+                Obstacle::Face { point, normal: degrees("normal_deg", normal)? }
+            }
+            (Object::Face | Object::UnknownFace, ..) => {
+                return Err(
+                    "a face needs `normal_deg`, its direction towards the whisker, and no `radius_mm`".to_owned()
+                );
+            }
+        };
+        if self.deviation_urad <= 0.0 {
+            return Err("`deviation_urad` must be above 0: the standard deviation of the two mean readings".to_owned());
+        }
+        let body = Pose {
+            position: Point2::new(millimetres("body_x_mm", self.body_x_mm)?, millimetres("body_y_mm", self.body_y_mm)?),
+            heading: degrees("heading_deg", self.heading_deg)?,
+        };
+        let touch = TouchReading {
+            body,
+            obstacle,
+            is_known: !matches!(self.object, Object::UnknownFace),
+            side: if self.side == Side::Left { 1.0 } else { -1.0 },
+            base_angle: microradians("base_angle_urad", self.base_angle_urad)?,
+            in_air: microradians("in_air_urad", self.in_air_urad)?,
+            deviation: microradians("deviation_urad", self.deviation_urad)?,
+        };
+        Ok((self.whisker, touch))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use proptest::prelude::*;
+
+    const HEADER: &str = "whisker,body_x_mm,body_y_mm,heading_deg,object,object_x_mm,object_y_mm,radius_mm,normal_deg,side,\
+                          base_angle_urad,in_air_urad,deviation_urad\n";
+
+    fn error(line: &str) -> String {
+        read_touches(format!("# a comment\n{HEADER}{line}\n").as_bytes()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_line_that_cannot_be_used_is_refused_with_its_number_and_reason() {
+        assert!(error("r0,0,0,0,pin,1,2,,,left,1,1,0.1").starts_with("line 3: a pin needs `radius_mm`"));
+        assert!(error("r0,0,0,0,face,1,2,,,left,1,1,0.1").contains("a face needs `normal_deg`"));
+        assert!(error("r0,0,0,0,edge,1,2,3,,left,1,1,0.1").contains("an edge has neither"));
+        assert!(error("r0,0,0,0,edge,1,2,,,left,1,1,0").contains("`deviation_urad` must be above 0"));
+        assert!(error("r0,nan,0,0,edge,1,2,,,left,1,1,0.1").contains("`body_x_mm` must be"));
+        assert!(error("r0,0,0,0,edge,1,2,,,middle,1,1,0.1").contains("left"));
+        assert!(error("r0,0,0").contains("as many values"));
+        assert!(read_touches(b"whisker,x\nr0,1\n").is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn touches_that_are_written_are_read_again(
+            position in [-2.0..2.0_f64, -2.0..2.0_f64],
+            heading in -3.0..3.0_f64,
+            size in 0.0..0.1_f64,
+            kind in 0..4,
+            is_left in any::<bool>(),
+            readings in [-1e-3..1e-3_f64, -1e-5..1e-5_f64, 1e-9..1e-6_f64],
+        ) {
+            let point = Point2::new(size, position[0]);
+            let obstacle = match kind {
+                0 => Obstacle::Pin { centre: point, radius: size + 1e-4 },
+                1 => Obstacle::Pin { centre: point, radius: 0.0 },
+                _ => Obstacle::Face { point, normal: heading },
+            };
+            let touch = TouchReading {
+                body: Pose { position: position.into(), heading },
+                obstacle,
+                is_known: kind != 3,
+                side: if is_left { 1.0 } else { -1.0 },
+                base_angle: readings[0],
+                in_air: readings[1],
+                deviation: readings[2],
+            };
+            let text = write_touches(std::iter::once(("r0", &touch))).unwrap();
+            let [(whisker, found)] = read_touches(text.as_bytes()).unwrap().try_into().unwrap();
+            prop_assert_eq!(whisker, "r0");
+            prop_assert_eq!((found.side, found.is_known), (touch.side, touch.is_known));
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+            prop_assert!((found.body.position - touch.body.position).norm() < 1e-12 && near(found.body.heading, heading));
+            prop_assert!(near(found.base_angle, touch.base_angle) && near(found.in_air, touch.in_air));
+            prop_assert!(near(found.deviation, touch.deviation));
+            let same = match (found.obstacle, obstacle) {
+                (Obstacle::Pin { centre: a, radius: r }, Obstacle::Pin { centre: b, radius: s }) => {
+                    (a - b).norm() < 1e-12 && near(r, s) && (r == 0.0) == (s == 0.0)
+                }
+                (Obstacle::Face { point: a, normal: n }, Obstacle::Face { point: b, normal: m }) => {
+                    (a - b).norm() < 1e-12 && near(n, m)
+                }
+                _ => false,
+            };
+            prop_assert!(same, "{:?}", found.obstacle);
+        }
+    }
+}

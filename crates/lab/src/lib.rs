@@ -1,0 +1,27 @@
+//! Runs of policies in scenes, their scores, experiments over many runs, and reports.
+//!
+//! - [`trial`] combines a scene, a policy, a simulator and a seed. [`run`] has the trace, [`score`] the figures, [`results`] the documents.
+//! - [`load`] and [`request`] make trials of files and options. [`built_in`] has the files that the program contains.
+//! - [`study`], [`family`], [`sweep`], [`tune`] and [`property`] run many trials.
+//! - [`inspect`] looks into a running policy, `recording` keeps and replays runs.
+//! - [`calibration`] fits measured whiskers, [`emulated`] runs trials with the robot's loop.
+//! - [`report`] makes tables, pages and pictures of all of them.
+
+pub mod built_in;
+pub mod calibration;
+pub mod emulated;
+pub mod family;
+pub mod inspect;
+pub mod load;
+pub mod property;
+#[cfg(feature = "recording")]
+pub mod recording;
+pub mod report;
+pub mod request;
+pub mod results;
+pub mod run;
+pub mod score;
+pub mod study;
+pub mod sweep;
+pub mod trial;
+pub mod tune;

@@ -1,0 +1,195 @@
+//! Policies, as texts or compiled.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, ParameterValue, Program, SetError};
+
+use super::scenario::beside;
+use super::text::{SIZE_LIMIT, bytes, name, reason, text};
+use super::{LoadError, Loaded};
+use crate::built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
+use vibrissa_language::chart::Chart;
+use vibrissa_language::{Compiled, Library, PolicyTest, gather_and_compile};
+use vibrissa_text::diagnostic::{Diagnostic, Source};
+use vibrissa_text::file::CommandFiles;
+use vibrissa_world::scenario;
+use vibrissa_world::scene::{PolicyReference, PolicySetting, Scene};
+
+/// The content of a policy file.
+pub enum PolicyFile {
+    /// Its text.
+    Text(Source),
+    /// A compiled machine.
+    Machine(Box<Artifact>),
+}
+
+/// Reads the text of a policy or a compiled machine. The path can also be the name of a built-in policy. A machine is recognised by its first bytes or by its name. The
+/// hash is that of the file alone.
+pub fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, LoadError> {
+    let bytes = bytes(path, ARTIFACT_LIMIT, POLICIES, files)?;
+    let hash = Sha256::new().chain_update(&bytes);
+    let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
+        PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(LoadError::artifact(path))?))
+    } else {
+        PolicyFile::Text(Source::new(name(path)?, text(&bytes).map_err(LoadError::read(path))?))
+    };
+    Ok(Loaded { value, hash })
+}
+
+/// The text of a policy with those of the files that it uses.
+pub fn with_libraries(source: &Source, files: &mut CommandFiles) -> Source {
+    vibrissa_language::gather(source, &mut |path| library(Path::new(path), files))
+}
+
+/// The text of a file that a policy uses.
+fn library(path: &Path, files: &mut CommandFiles) -> Result<String, String> {
+    files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
+}
+
+/// The text of a file that a policy uses, for an editor, which writes no file.
+pub fn library_for_editor(path: &str) -> Result<String, String> {
+    let path = Path::new(path);
+    vibrissa_text::file::read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
+}
+
+/// A policy that is ready to run.
+pub struct Policy {
+    /// The compiled machine.
+    pub artifact: Artifact,
+    /// The text. `None` for a compiled machine.
+    pub text: Option<PolicyText>,
+}
+
+/// The text of a policy that compiled.
+pub struct PolicyText {
+    /// The text with those of all files that it uses.
+    pub source: Source,
+    /// Warnings about probable mistakes.
+    pub warnings: Vec<Diagnostic>,
+    /// The tests in it.
+    pub tests: Vec<PolicyTest>,
+    /// True if the text is a test file. Then the program is that of the tested machine.
+    pub(crate) is_test_file: bool,
+}
+
+/// Reads the text of a policy and compiles it, or reads a compiled machine.
+pub fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
+    let policy = tested_policy(path, files)?;
+    match &policy.value.text {
+        Some(text) if text.is_test_file => Err(LoadError::TestFile { path: path.to_owned() }),
+        _ => Ok(policy),
+    }
+}
+
+/// Reads a policy, or the machine of a test file with the tests of that file.
+pub fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
+    let Loaded { value, hash } = policy_file(path, files)?;
+    match value {
+        PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
+        PolicyFile::Text(source) => policy_in(&source, files),
+    }
+}
+
+/// The policy for the scene that was read from `source`: the requested one, else the one that the scene names, with its
+/// parameters, else the built-in one.
+pub fn policy_for(
+    asked: Option<&Path>,
+    scene: &Scene,
+    source: &Source,
+    files: &mut CommandFiles,
+) -> Result<Loaded<Policy>, LoadError> {
+    match (asked, &scene.policy) {
+        (Some(path), _) => policy(path, files),
+        (None, Some(_)) if TextFile::named(SCENARIOS, Path::new(&source.name)).is_some() => {
+            built_in_policy(named_by_built_in(scene))
+        }
+        (None, Some(PolicyReference { file, settings })) => {
+            let path = beside(Path::new(&source.name), &file.path);
+            let named = policy(&path, files).map_err(LoadError::named_in(source, file))?;
+            settings.iter().try_fold(named, |policy, PolicySetting { name, value, span }| {
+                let unfit = |cause: SetError| LoadError::at(source, scenario::unfit(*span, &cause.to_string()));
+                set(policy, &[(name.clone(), value.clone())]).map_err(unfit)
+            })
+        }
+        (None, None) => built_in_policy(&DEFAULT_POLICY),
+    }
+}
+
+/// The built-in policy with the name that a built-in scenario gives, or else the default one.
+pub fn named_by_built_in(scene: &Scene) -> &'static TextFile {
+    let named = scene.policy.as_ref().and_then(|policy| TextFile::named(POLICIES, Path::new(&policy.file.name)));
+    named.unwrap_or(&DEFAULT_POLICY)
+}
+
+/// Reads a policy without its warnings, which take most of the time of a compilation.
+pub fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>, LoadError> {
+    let Loaded { value, hash } = policy_file(path, files)?;
+    let source = match value {
+        PolicyFile::Machine(artifact) => return Ok(Loaded { value: artifact.program, hash }),
+        PolicyFile::Text(source) => with_libraries(&source, files),
+    };
+    let hash = Sha256::new().chain_update(&source.text);
+    match vibrissa_language::compile(&source) {
+        Ok(value) => Ok(Loaded { value, hash }),
+        Err(faults) => Err(LoadError::Faults { source_text: Box::new(source), faults }),
+    }
+}
+
+/// A built-in policy. It uses only the standard library.
+pub fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadError> {
+    let source = Source::new(file.path, file.text);
+    compiled(&source, &mut |_| Err("it is not built into the program".to_owned()))
+}
+
+/// The policy of a text that has been read, with the files that it uses.
+pub fn policy_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
+    compiled(source, &mut |path| library(Path::new(path), files))
+}
+
+fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>, LoadError> {
+    let (source, compiled) = gather_and_compile(source, library);
+    let hash = Sha256::new().chain_update(&source.text);
+    match compiled {
+        Ok(Compiled { artifact, tests, is_test_file, warnings, proved: _ }) => {
+            let value = Policy { artifact, text: Some(PolicyText { source, warnings, tests, is_test_file }) };
+            Ok(Loaded { value, hash })
+        }
+        Err(faults) => Err(LoadError::Faults { source_text: Box::new(source), faults }),
+    }
+}
+
+/// Reads the text of a policy. A compiled machine is an error.
+pub fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
+    match policy_file(path, files)?.value {
+        PolicyFile::Text(source) => Ok(source),
+        PolicyFile::Machine(artifact) => {
+            Err(LoadError::Compiled { path: path.to_owned(), origin: artifact.origin.file.clone() })
+        }
+    }
+}
+
+/// Reads a policy as a statechart.
+pub fn chart(path: &Path, files: &mut CommandFiles) -> Result<Chart, LoadError> {
+    let source = with_libraries(&policy_text(path, files)?, files);
+    vibrissa_language::chart(&source).map_err(|faults| LoadError::Faults { source_text: Box::new(source), faults })
+}
+
+/// A policy with these parameters set. Its hash depends on them.
+///
+/// # Errors
+/// [`SetError`] if the policy does not have such a parameter, or if the value is out of its range.
+pub fn set(mut policy: Loaded<Policy>, settings: &[(String, ParameterValue)]) -> Result<Loaded<Policy>, SetError> {
+    let program = &mut policy.value.artifact.program;
+    let mut values = Vec::with_capacity(settings.len());
+    for (name, value) in settings {
+        values.push((name.as_str(), program.set_value(name, value)?));
+    }
+    Ok(Loaded { hash: with_settings(policy.hash, values.into_iter()), ..policy })
+}
+
+/// The hash of a policy with the names and values (SI) of the parameters that are set.
+#[must_use]
+pub fn with_settings<'s>(policy: Sha256, settings: impl Iterator<Item = (&'s str, f64)>) -> Sha256 {
+    settings.fold(policy, |hash, (name, value)| hash.chain_update(format!("\0{name}={value}")))
+}

@@ -1,0 +1,42 @@
+//! Seeds that are given and have no effect.
+
+use vibrissa_world::mismatch::Mismatch;
+use vibrissa_world::scene::Scene;
+
+/// A seed that was given although nothing depends on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum SeedWithoutEffect {
+    /// That of the values of a mismatch.
+    #[error(
+        "the seed of the mismatch (--mismatch-seed) has no effect, because no value of a mismatch is a range; leave it out, or give \
+         ranges as in scenarios/mismatch/array.yaml"
+    )]
+    Mismatch,
+    /// That of the cases of properties.
+    #[error("the seed of the cases (--seed) has no effect, because no property is tested; leave it out")]
+    Cases,
+    /// That of the noise.
+    #[error(
+        "the seed of the noise (--seed) has no effect, because nothing has noise; leave it out, or add noise: --noise of `bench` \
+         and `calibrate`, `rig.sensing` of a scenario, or `sensor` and `pose` of a mismatch"
+    )]
+    Noise,
+}
+
+/// Checks that a seed of the noise, if one is given, changes a run of one of the scenes.
+pub fn check_noise_seed<'s>(
+    seed: Option<u64>,
+    mut scenes: impl Iterator<Item = &'s Scene>,
+) -> Result<(), SeedWithoutEffect> {
+    if seed.is_none() || scenes.any(Scene::is_noisy) { Ok(()) } else { Err(SeedWithoutEffect::Noise) }
+}
+
+/// Checks that a seed of a mismatch, if one is given, changes the array of one of the scenes.
+pub(super) fn check_mismatch_seed<'s>(
+    seed: Option<u64>,
+    file: Option<&Mismatch>,
+    scenes: impl Iterator<Item = &'s Scene>,
+) -> Result<(), SeedWithoutEffect> {
+    let mut mismatches = file.into_iter().chain(scenes.filter_map(|scene| scene.mismatch.as_ref()));
+    if seed.is_none() || mismatches.any(Mismatch::is_drawn) { Ok(()) } else { Err(SeedWithoutEffect::Mismatch) }
+}

@@ -1,0 +1,76 @@
+//! Texts of bounded size.
+
+use std::io::{Error, ErrorKind};
+use std::path::Path;
+
+use vibrissa_runtime::units::suggest;
+
+use super::LoadError;
+use crate::built_in::TextFile;
+use vibrissa_text::diagnostic::{NotUtf8, Source, utf8};
+use vibrissa_text::file::CommandFiles;
+
+/// Largest size of a text in bytes, as for the largest scenario.
+pub(super) const SIZE_LIMIT: usize = 1 << 20;
+
+/// The name of a file in messages. It is exactly the path, because paths within a text are relative to it.
+pub(super) fn name(path: &Path) -> Result<String, LoadError> {
+    path.to_str().map(str::to_owned).ok_or_else(|| LoadError::Name { path: path.to_owned() })
+}
+
+/// Reads a text.
+pub fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
+    let name = name(path)?;
+    let text = files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(path))?;
+    Ok(Source::new(name, text))
+}
+
+/// Reads a file. If there is none at the path, the one of `built_in` with this name.
+pub(super) fn bytes(
+    path: &Path,
+    limit: usize,
+    built_in: &'static [TextFile],
+    files: &mut CommandFiles,
+) -> Result<Vec<u8>, LoadError> {
+    let missing = |cause: &Error| cause.kind() == ErrorKind::NotFound;
+    match (files.read(path, limit), TextFile::named(built_in, path)) {
+        (Err(cause), Some(file)) if missing(&cause) => Ok(file.text.as_bytes().to_owned()),
+        (read, _) => read.map_err(LoadError::read(path)),
+    }
+}
+
+pub(super) fn text(bytes: &[u8]) -> Result<String, Error> {
+    let unusable = |cause: &str| Error::new(ErrorKind::InvalidData, cause);
+    if bytes.len() > SIZE_LIMIT {
+        return Err(unusable(
+            "it is larger than 1 MiB; a scenario or policy is a short text; check that this is the right file",
+        ));
+    }
+    let text = utf8(bytes).map_err(|fault| unusable(&format!("{fault}; {}", NotUtf8::ADVICE)))?;
+    Ok(text.to_owned())
+}
+
+/// Reads standard input.
+pub fn read_standard(files: &mut CommandFiles) -> Result<Source, LoadError> {
+    let name = "standard input";
+    let text =
+        files.read_standard(SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(Path::new(name)))?;
+    Ok(Source::new(name, text))
+}
+
+/// The reason for a file that cannot be read. For a missing file it suggests a similar name.
+pub(super) fn reason(path: &Path, cause: &Error) -> String {
+    if cause.kind() != ErrorKind::NotFound {
+        return cause.to_string();
+    }
+    let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+    let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
+    let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+    // The first of several equally similar names is suggested. A folder has no order of its own.
+    siblings.sort_unstable();
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
+        Some(meant) => format!("{cause}; did you mean `{meant}`?"),
+        None => cause.to_string(),
+    }
+}

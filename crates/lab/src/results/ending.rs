@@ -1,0 +1,99 @@
+//! The outcomes of runs, judged by the expectations of their scenarios.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::run::Run;
+use crate::score::Score;
+use vibrissa_world::scene::{Expectation, Metric, Outcome, Violation};
+
+/// The outcome of a run, judged by the expectations of its scenario.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Ending {
+    /// The run met its stop condition, and the expectations of its scenario hold.
+    Completed,
+    /// The run met its stop condition, but not all expectations of its scenario hold.
+    Ended,
+    /// The run reached its time limit.
+    Timeout,
+    /// The run failed.
+    Failed,
+    /// The simulation cannot be trusted.
+    Diverged,
+    /// The process of the run crashed.
+    Crashed,
+    /// The run could not begin.
+    Refused,
+}
+
+impl Ending {
+    /// The outcome of a run with these violations of its scenario.
+    #[must_use]
+    pub fn new(outcome: Outcome, violations: &[Violation]) -> Self {
+        match outcome {
+            Outcome::Completed if violations.is_empty() => Self::Completed,
+            Outcome::Completed => Self::Ended,
+            Outcome::Timeout => Self::Timeout,
+            Outcome::Failed => Self::Failed,
+            Outcome::Diverged => Self::Diverged,
+            Outcome::Refused => Self::Refused,
+        }
+    }
+
+    /// The name in results and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Ended => "ended",
+            Self::Timeout => "timeout",
+            Self::Failed => "failed",
+            Self::Diverged => "diverged",
+            Self::Crashed => "crashed",
+            Self::Refused => "refused",
+        }
+    }
+
+    /// True if the run met its stop condition. The figures of other runs are of a part of the task, and mislead in a mean.
+    #[must_use]
+    pub const fn met_its_stop(self) -> bool {
+        matches!(self, Self::Completed | Self::Ended)
+    }
+
+    /// True if there was a run.
+    #[must_use]
+    pub const fn took_place(self) -> bool {
+        !matches!(self, Self::Crashed | Self::Refused)
+    }
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The expectations that a run violates, and the contracts of its policy if it violates any.
+#[must_use]
+pub fn unmet(expectations: &[Expectation], run: &Run, score: &Score) -> Vec<Violation> {
+    let violations = expectations.iter().filter_map(|one| one.violation(run.outcome, |metric| score.figure(metric)));
+    let violated = run.contracts.iter().filter(|contract| contract.violations > 0).count();
+    violations.chain((violated > 0).then_some(Violation::Contracts { violated })).collect()
+}
+
+/// The description of a violation, with the `reason` of the outcome if there is one.
+#[must_use]
+pub(super) fn described(violation: &Violation, reason: Option<&str>) -> String {
+    match (violation, reason) {
+        (Violation::Outcome { found, .. }, Some(reason)) => format!("{found}: {reason}"),
+        _ => violation.to_string(),
+    }
+}
+
+/// True if the violation is that of a bound of the largest error.
+pub(super) fn is_of_largest_error(violation: &Violation) -> bool {
+    matches!(violation, Violation::Bound { metric: Metric::ErrorMax, .. })
+}

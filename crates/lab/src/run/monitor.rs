@@ -1,0 +1,251 @@
+//! The monitor of a run: it records the trace and decides when the run ends.
+
+use std::time::{Duration, Instant};
+
+use vibrissa_runtime::control::Control;
+use vibrissa_runtime::machine::{Fallback, LoggedMessage, Machine, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::percept::{LoopWatch, Perception};
+use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
+use vibrissa_world::geometry::{Point2, Vector2};
+use vibrissa_world::scene::{Goal, Outcome, Reached, Stop};
+use vibrissa_world::world::{Fault, World};
+
+use super::contract::ContractRecord;
+use super::drive::Run;
+use super::passage_watch::PassageWatch;
+use super::stall_watch::StallWatch;
+use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
+
+/// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
+const INITIAL_CAPACITY: usize = 108_000;
+
+/// Records the ticks of a control loop, and decides when the run ends.
+#[derive(Debug)]
+pub struct Monitor {
+    trace: Trace,
+    tick_times: Vec<Duration>,
+    loops: [LoopWatch; MAX_WHISKERS],
+    passages: Vec<PassageWatch>,
+    stall: Option<StallWatch>,
+    stop: Stop,
+    most_ticks: usize,
+    start: Instant,
+    first_tick: Option<Duration>,
+}
+
+/// The end of a run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Ending {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// Its reason. `None` if a stop condition completed the run.
+    pub reason: Option<String>,
+}
+
+impl Ending {
+    const COMPLETED: Self = Self { outcome: Outcome::Completed, reason: None };
+
+    fn failed(reason: Option<String>) -> Self {
+        Self { outcome: Outcome::Failed, reason }
+    }
+
+    fn timeout(reason: String) -> Self {
+        Self { outcome: Outcome::Timeout, reason: Some(reason) }
+    }
+}
+
+impl Monitor {
+    /// A monitor of `control` until `goal`, with this control period (s). The run begins now.
+    #[must_use]
+    pub fn new(control: &Control, Goal { stop, tunnels }: Goal<'_>, period: f64) -> Self {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number of ticks of a run")]
+        let most_ticks = (stop.time / period).ceil() as usize;
+        let program = control.machine().program();
+        let trace = Trace {
+            whiskers: control.perception().fitted().map(|(whisker, _)| program.whiskers[whisker].clone()).collect(),
+            states: program.states.iter().map(|state| state.name.to_string()).collect(),
+            parents: program.states.iter().map(|state| state.parent).collect(),
+            period,
+            ticks: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
+            marks: Vec::new(),
+            plots: (program.outputs.plots.iter())
+                .map(|plot| PlotRecord { name: plot.name.clone(), kind: plot.kind.clone(), values: Vec::new() })
+                .collect(),
+            messages: Vec::new(),
+            further_messages: 0,
+            crashed: false,
+        };
+        Self {
+            trace,
+            tick_times: Vec::with_capacity(most_ticks.min(INITIAL_CAPACITY)),
+            loops: Default::default(),
+            passages: if stop.passed.is_some() { tunnels.iter().map(PassageWatch::new).collect() } else { Vec::new() },
+            stall: stop.stalled.map(StallWatch::new),
+            stop: *stop,
+            most_ticks,
+            start: Instant::now(),
+            first_tick: None,
+        }
+    }
+
+    /// The trace so far.
+    #[must_use]
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    /// Notes the wall time of the tick that [`observe`](Self::observe) receives next.
+    pub fn tick_took(&mut self, duration: Duration) {
+        self.tick_times.push(duration);
+        self.first_tick.get_or_insert_with(|| self.start.elapsed());
+    }
+
+    /// The ending after a fault of the world.
+    pub fn crashed(&mut self, fault: &Fault) -> Ending {
+        self.trace.crashed = matches!(fault, Fault::Crash { .. });
+        let outcome = if self.trace.crashed { Outcome::Failed } else { Outcome::Diverged };
+        Ending { outcome, reason: Some(fault.to_string()) }
+    }
+
+    /// Records a tick. The result is the ending if the run ends with it.
+    pub fn observe(&mut self, control: &Control, command: Command, ticked: &Tick, world: &dyn World) -> Option<Ending> {
+        let tick = record(control, command, ticked.fallback, world);
+        self.trace.marks.extend(marks(control, self.trace.ticks.len()));
+        self.record_outputs(control.machine());
+        self.trace.ticks.push(tick);
+        if ticked.status == Status::Failed {
+            return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
+        }
+        if ticked.status == Status::Succeeded {
+            return Some(Ending { reason: control.machine().success().map(str::to_owned), ..Ending::COMPLETED });
+        }
+        if let Some(aim) = &self.stop.loop_closed {
+            for (watch, tip) in self.loops.iter_mut().zip(tick.tips) {
+                watch.update(tick.time, tip, tick.body.position);
+            }
+            if self.loops.iter().any(|watch| watch.is_closed(aim.within, aim.after)) {
+                return Some(Ending::COMPLETED);
+            }
+        }
+        if self.stop.reached.is_some_and(|aim| is_reached(&tick, &aim)) {
+            return Some(Ending::COMPLETED);
+        }
+        if let Some(share) = self.stop.passed {
+            for passage in &mut self.passages {
+                passage.add(&tick.body);
+            }
+            if self.passages.iter().any(|passage| passage.share() >= share) {
+                return Some(Ending::COMPLETED);
+            }
+        }
+        if let Some(reason) = self.stall.as_mut().and_then(|watch| watch.stalls(&tick)) {
+            return Some(Ending::failed(Some(reason)));
+        }
+        if self.trace.ticks.len() < self.most_ticks {
+            return None;
+        }
+        let time = self.stop.time;
+        let missing = match self.stop {
+            Stop { loop_closed: Some(_), .. } => "the loop did not close",
+            Stop { reached: Some(_), .. } => "the position was not reached",
+            Stop { passed: Some(_), .. } => "the tunnel was not passed",
+            Stop { succeeded: true, .. } => "the policy did not end in `Success`",
+            Stop { .. } => return Some(Ending::COMPLETED),
+        };
+        Some(Ending::timeout(format!("{missing} within {time} s")))
+    }
+
+    /// Replaces the command of the newest tick.
+    pub fn replace_command(&mut self, command: Command) {
+        if let Some(newest) = self.trace.ticks.last_mut() {
+            newest.command = command;
+        }
+    }
+
+    /// Records the plots and messages of the tick that is recorded next.
+    fn record_outputs(&mut self, machine: &Machine) {
+        let tick = self.trace.ticks.len();
+        for (plot, value) in machine.plotted() {
+            self.trace.plots[plot].values.push((tick, value));
+        }
+        let program = machine.program();
+        for LoggedMessage { message, numbers } in machine.logged() {
+            if self.trace.messages.len() == MESSAGES_KEPT {
+                self.trace.further_messages += 1;
+                continue;
+            }
+            let message = &program.outputs.messages[message];
+            let (state, message) = (message.state, message.shown(&numbers, &program.whiskers));
+            self.trace.messages.push(MessageRecord { tick, state, message });
+        }
+    }
+
+    /// The finished run.
+    #[must_use]
+    pub fn finish(self, control: &Control, ending: Ending) -> Run {
+        let machine = control.machine();
+        Run {
+            outcome: ending.outcome,
+            reason: ending.reason,
+            final_state: machine.state_name().to_owned(),
+            trace: self.trace,
+            contracts: machine.contracts().map(|observed| ContractRecord::new(machine.program(), &observed)).collect(),
+            wall: self.start.elapsed(),
+            start: self.first_tick.unwrap_or_default(),
+            tick_times: self.tick_times,
+        }
+    }
+}
+
+/// True if the platform has reached the position of `aim`.
+fn is_reached(tick: &TickRecord, aim: &Reached) -> bool {
+    tick.time >= aim.after && (tick.body.position - aim.place).norm() <= aim.within
+}
+
+/// The marks of the tick with this index.
+fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
+    control.perception().fitted().enumerate().flat_map(move |(whisker, (bound, _))| {
+        let marks = control.perception().marks(bound);
+        marks.map(move |(mark, tip_world)| MarkRecord { mark, whisker, tick, tip_world })
+    })
+}
+
+fn record(control: &Control, command: Command, fallback: Option<Fallback>, world: &dyn World) -> TickRecord {
+    let (perception, machine) = (control.perception(), control.machine());
+    let mut tick = TickRecord {
+        time: perception.time(),
+        body: perception.pose(),
+        state: machine.failure().is_none().then(|| machine.state()),
+        deflections: [0.0; MAX_WHISKERS],
+        tips: [None; MAX_WHISKERS],
+        contacts: Default::default(),
+        tip_deviations: [0.0; MAX_WHISKERS],
+        command,
+        fallback,
+        tip_ends: [None; MAX_WHISKERS],
+        body_touches: world.body_touches(),
+        out_of_plane: [None; MAX_WHISKERS],
+        snap_offs: [false; MAX_WHISKERS],
+    };
+    for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
+        tick.snap_offs[whisker] = world.snapped_off(in_rig);
+        tick.out_of_plane[whisker] = world.out_of_plane(in_rig);
+        tick.tip_ends[whisker] = Some(world.tip(in_rig));
+        tick.deflections[whisker] = perception.base_angle(bound);
+        tick.tips[whisker] = perception.recorded_tip(bound);
+        tick.contacts[whisker] = contact(perception, bound);
+        tick.tip_deviations[whisker] = perception.recorded_deviation(bound);
+    }
+    tick
+}
+
+fn contact(perception: &Perception, whisker: usize) -> Contact {
+    let known = |vector: Vector2| vector.iter().all(|part| part.is_finite()).then_some(vector);
+    let vector = |quantity| known(perception.whisker_vector(whisker, quantity));
+    Contact {
+        is_touching: perception.whisker(whisker, WhiskerScalar::Touching) > 0.0,
+        tip_world: vector(WhiskerVector::Tip).map(Point2::from),
+        tangent_world: vector(WhiskerVector::ContourTangent),
+        inclination: perception.inclination(whisker),
+    }
+}

@@ -1,0 +1,305 @@
+//! Parts of an outline that the rig cannot reach.
+
+use std::cell::Cell;
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::Estimate;
+use super::coverage::traced;
+use vibrissa_runtime::rig::Rig;
+use vibrissa_world::geometry::{Contour, Point2, Segment, Vector2, perpendicular, rotate};
+use vibrissa_world::scene::{Truth, gap};
+
+/// Cell size (m) of the grid on which the base of a whisker and its shaft are searched. Narrower gaps count as closed.
+const CELL_SIZE: f64 = 2.5e-3;
+/// The number of sampled headings of the platform.
+const HEADINGS: u32 = 240;
+/// Lengths of a straight whisker, as shares of the longest one, that are tested before any search.
+const STRAIGHT_REACHES: [f64; 3] = [0.8, 0.4, 0.15];
+const STRAIGHT_HEADINGS: u32 = 24;
+/// Distance (m) between the sampled points of an outline.
+const SPACING: f64 = 4e-3;
+/// The largest ratio of a path along sides and diagonals of cells to the straight distance.
+const DETOUR: f64 = 1.0824;
+/// The distance (m) up to which two lines intersect, because of rounding.
+const ROUNDING: f64 = 1e-9;
+/// The largest number of queries of an outline in a search, which take some seconds.
+const MAX_QUERIES: usize = 2_500_000;
+/// The distance (m) of the sampled points from the outline, on the outside.
+const OUTSIDE_OFFSET: f64 = 1e-5;
+
+/// The length (m) of the untraced reference that no tip of the rig can touch from any pose.
+///
+/// A tip can touch a point only under two conditions. The platform has a pose in which its footprint is clear of all
+/// solids. The shortest path through free space from the base of a whisker to the point is no longer than the whisker,
+/// because a bent shaft is never shorter than this path. Other conditions are ignored: whether the platform can move to
+/// the pose, how far a shaft can bend, and where the other whiskers are. The result is therefore a lower bound.
+///
+/// Poses are sampled on a grid. Footprints are reduced by the distance between neighbouring poses, some 4 mm for the
+/// reference rig. In a tapered gap, this admits some 15 mm more. Points are sampled every 4 mm.
+///
+/// The work is limited. Points that remain at the limit count as within reach.
+#[must_use]
+pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
+    let mut search = Search::new(rig, truth);
+    let of_contour = |contour: &Contour| -> f64 {
+        untraced(&traced(estimate, contour), contour.length())
+            .map(|stretch| search.out_of_reach(contour, &stretch))
+            .sum()
+    };
+    // An empty `sum` is negative zero.
+    truth.reference.contours().map(of_contour).fold(0.0, |sum, length| sum + length)
+}
+
+/// The complement of some intervals in `0..length`.
+fn untraced(traced: &[Range<f64>], length: f64) -> impl Iterator<Item = Range<f64>> {
+    let starts = std::iter::once(0.0).chain(traced.iter().map(|stretch| stretch.end));
+    let ends = traced.iter().map(|stretch| stretch.start).chain([length]);
+    starts.zip(ends).map(|(start, end)| start..end).filter(|stretch| stretch.end > stretch.start)
+}
+
+/// A node of the grid, by its column and row.
+type Node = (i64, i64);
+
+/// A search through the free space of one scene. Results for nodes are cached.
+struct Search<'s> {
+    truth: &'s Truth,
+    /// For every whisker, the corners of the footprint relative to its base (m, body frame), reduced by the distance
+    /// between neighbouring poses.
+    mounts: Vec<[Vector2; 4]>,
+    /// The longest whisker (m).
+    length: f64,
+    is_free: HashMap<Node, bool>,
+    has_base: HashMap<Node, bool>,
+    /// The number of queries of outlines so far.
+    queries: Cell<usize>,
+}
+
+impl<'s> Search<'s> {
+    fn new(rig: &Rig, truth: &'s Truth) -> Self {
+        let corners_body = rig.platform.outline_body();
+        let mounts = rig.whiskers.iter().map(|whisker| {
+            let from_base = corners_body.map(|corner| corner - whisker.base_body);
+            let arm = from_base.iter().map(Vector2::norm).fold(0.0, f64::max);
+            // Half of a cell's diagonal, and half of the rotation between two headings.
+            let margin = CELL_SIZE * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
+            shrunk(from_base, margin)
+        });
+        Self {
+            truth,
+            mounts: mounts.collect(),
+            length: rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, f64::max),
+            is_free: HashMap::new(),
+            has_base: HashMap::new(),
+            queries: Cell::new(0),
+        }
+    }
+
+    /// The length (m) of an interval of a contour that no tip can touch.
+    fn out_of_reach(&mut self, contour: &Contour, stretch: &Range<f64>) -> f64 {
+        let width = stretch.end - stretch.start;
+        let pieces = (width / SPACING).ceil().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pieces")]
+        let unreached = (0..pieces as usize).filter(|&index| {
+            let s = stretch.start + (index as f64 + 0.5) / pieces * width;
+            // The outside is on the right. An open contour may be touched from either side.
+            let outwards = -OUTSIDE_OFFSET * perpendicular(contour.tangent_at(s));
+            let at = contour.point_at(s);
+            !self.can_touch(at, outwards) && (contour.is_closed() || !self.can_touch(at, -outwards))
+        });
+        unreached.count() as f64 * width / pieces
+    }
+
+    /// True if a tip may touch a point of an outline from the side of `outwards`.
+    fn can_touch(&mut self, at: Point2, outwards: Vector2) -> bool {
+        let from = at + outwards;
+        if self.queries.get() > MAX_QUERIES {
+            return true;
+        }
+        // Nearly all reachable points have a pose directly in front of them. The search would take a thousand times as
+        // long.
+        self.is_outside(from) && (self.is_in_front(from, outwards.normalize()) || self.reaches(from))
+    }
+
+    /// True if the platform has a clear pose with a straight whisker along the normal of the outline at a point.
+    fn is_in_front(&self, point: Point2, normal: Vector2) -> bool {
+        STRAIGHT_REACHES.iter().any(|reach| {
+            let base = point + reach * self.length * normal;
+            self.is_open(point, base)
+                && (0..STRAIGHT_HEADINGS).any(|index| {
+                    let heading = TAU * f64::from(index) / f64::from(STRAIGHT_HEADINGS);
+                    self.has_pose(base, heading + normal.y.atan2(normal.x))
+                })
+        })
+    }
+
+    /// True if the shortest path through free space from a point to a base of a whisker is no longer than the longest
+    /// whisker.
+    fn reaches(&mut self, point: Point2) -> bool {
+        let most = DETOUR * self.length + 2.0 * CELL_SIZE;
+        let mut open = BinaryHeap::new();
+        let mut nearest: HashMap<Node, f64> = HashMap::new();
+        let (column, row) = node_at(point);
+        for node in (-1..=2).flat_map(|x| (-1..=2).map(move |y| (column + x, row + y))) {
+            let length = (place(node) - point).norm();
+            if length <= 2.0 * CELL_SIZE && self.is_free(node) && self.is_open(point, place(node)) {
+                nearest.insert(node, length);
+                open.push(SearchPath { length, node });
+            }
+        }
+        while let Some(SearchPath { length, node }) = open.pop() {
+            if length > most {
+                return false;
+            }
+            if self.queries.get() > MAX_QUERIES {
+                return true;
+            }
+            if nearest.get(&node).is_some_and(|&shorter| shorter < length) {
+                continue;
+            }
+            if self.has_base(node) {
+                return true;
+            }
+            for step in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
+                let next = (node.0 + step.0, node.1 + step.1);
+                let length = length + (place(next) - place(node)).norm();
+                let is_shorter = nearest.get(&next).is_none_or(|&known| length < known);
+                if is_shorter && self.is_free(next) && self.is_open(place(node), place(next)) {
+                    nearest.insert(next, length);
+                    open.push(SearchPath { length, node: next });
+                }
+            }
+        }
+        false
+    }
+
+    fn is_free(&mut self, node: Node) -> bool {
+        let truth = self.truth;
+        *self.is_free.entry(node).or_insert_with(|| is_outside(truth, place(node)))
+    }
+
+    fn is_outside(&self, point: Point2) -> bool {
+        is_outside(self.truth, point)
+    }
+
+    /// Counts one query per outline.
+    fn count_queries(&self) {
+        self.queries.set(self.queries.get() + self.truth.surfaces.contours().count());
+    }
+
+    /// True if the line between two points does not cross an outline.
+    fn is_open(&self, start: Point2, end: Point2) -> bool {
+        self.count_queries();
+        let line = Segment { start, end };
+        let mut surfaces = self.truth.surfaces.contours();
+        surfaces.all(|contour| contour.distance(start) > (end - start).norm() || crosses_nothing(contour, &line))
+    }
+
+    /// True if the platform has a clear pose with the base of a whisker within half a cell's diagonal of the node.
+    fn has_base(&mut self, node: Node) -> bool {
+        if let Some(&known) = self.has_base.get(&node) {
+            return known;
+        }
+        let base = place(node);
+        let mut headings = (0..HEADINGS).map(|index| TAU * f64::from(index) / f64::from(HEADINGS));
+        let found = headings.any(|heading| self.has_pose(base, heading));
+        self.has_base.insert(node, found);
+        found
+    }
+
+    /// True if the platform with this `heading` (rad) and a base of a whisker at this point is clear of all solids.
+    fn has_pose(&self, base: Point2, heading: f64) -> bool {
+        self.mounts.iter().any(|corners| {
+            self.count_queries();
+            let corners = corners.map(|corner| base + rotate(corner, heading));
+            // The reduced footprint does not contain the base, and a thin wall could separate them.
+            is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))
+        })
+    }
+}
+
+fn is_outside(truth: &Truth, point: Point2) -> bool {
+    truth.surfaces.contours().all(|contour| !contour.contains(point))
+}
+
+/// True if a convex polygon, given counter-clockwise, is clear of all solids.
+fn is_clear(truth: &Truth, corners: &[Point2; 4]) -> bool {
+    let middle = middle_of(corners);
+    let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
+    let sides = || (0..4).map(|side| Segment { start: corners[side], end: corners[(side + 1) % 4] });
+    let from_side = |side: Segment| (side.end - side.start).normalize().perp(&(middle - side.start));
+    let inner_radius = sides().map(from_side).fold(f64::INFINITY, f64::min);
+    truth.surfaces.contours().all(|contour| {
+        let distance = contour.distance(middle);
+        if distance > radius {
+            return !contour.contains(middle);
+        }
+        // Most poses in a narrow gap end here: the polygon contains a point of the outline.
+        if distance < inner_radius - ROUNDING {
+            return false;
+        }
+        let sides = sides();
+        let mut sides = sides.map(|side| crosses_nothing(contour, &side));
+        !contour.contains(middle) && sides.all(|clear| clear) && !is_within(corners, contour.point_at(0.0))
+    })
+}
+
+fn middle_of(corners: &[Point2; 4]) -> Point2 {
+    Point2::from(corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords / 4.0))
+}
+
+fn crosses_nothing(contour: &Contour, line: &Segment) -> bool {
+    contour.pieces_near(line).all(|piece| gap(line, piece) > ROUNDING)
+}
+
+fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
+    (0..4).all(|side| (corners[(side + 1) % 4] - corners[side]).perp(&(point - corners[side])) > 0.0)
+}
+
+/// Moves all sides of a convex polygon, given counter-clockwise, inwards by `margin` (m). A polygon that is too thin
+/// becomes a point.
+fn shrunk(corners: [Vector2; 4], margin: f64) -> [Vector2; 4] {
+    let middle = corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner / 4.0);
+    let inwards = |side: usize| perpendicular((corners[(side + 1) % 4] - corners[side]).normalize());
+    let widest = (0..4).map(|side| inwards(side).dot(&(middle - corners[side]))).fold(f64::INFINITY, f64::min);
+    if widest <= margin {
+        return [middle; 4];
+    }
+    [0, 1, 2, 3].map(|corner| {
+        let (before, after) = (inwards((corner + 3) % 4), inwards(corner));
+        // The intersection of both moved sides.
+        corners[corner] + margin / (1.0 + before.dot(&after)) * (before + after)
+    })
+}
+
+fn place((column, row): Node) -> Point2 {
+    Point2::new(column as f64 * CELL_SIZE, row as f64 * CELL_SIZE)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a scene is some metres wide")]
+fn node_at(point: Point2) -> Node {
+    ((point.x / CELL_SIZE).floor() as i64, (point.y / CELL_SIZE).floor() as i64)
+}
+
+/// A path to a node. The order is reversed for a priority queue of the shortest paths.
+#[derive(PartialEq)]
+struct SearchPath {
+    length: f64,
+    node: Node,
+}
+
+impl Eq for SearchPath {}
+
+impl Ord for SearchPath {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.length.total_cmp(&self.length)
+    }
+}
+
+impl PartialOrd for SearchPath {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}

@@ -1,0 +1,227 @@
+//! A file of results that grows line by line. An interrupted sweep is resumed from it.
+
+use crate::results::Document;
+use std::collections::{BTreeMap, HashMap};
+use std::fs::{File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+
+use super::header::Header;
+use super::line::read_line;
+use super::lines::{LINE_LIMIT, Lines};
+use crate::results::{Ending, Figures, Provenance};
+use crate::sweep::Sweep;
+use vibrissa_text::file;
+
+/// The error of a file of results.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultsError {
+    /// The file cannot be read or written.
+    #[error("cannot use {}: {cause}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        cause: io::Error,
+    },
+    /// Another process writes to the file.
+    #[error("another process is writing to {}; wait for it, or choose another path with --out", path.display())]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file has other content.
+    #[error("{} does not contain results of a {of} ({cause}); choose another path with --out", path.display())]
+    NoResults {
+        /// The file.
+        path: PathBuf,
+        /// The expected format.
+        of: &'static str,
+        /// The error of its first line.
+        cause: String,
+    },
+    /// The file has results of other inputs.
+    #[error("{} holds results of {difference}; choose another path with --out, or remove that file", path.display())]
+    Other {
+        /// The file.
+        path: PathBuf,
+        /// The difference.
+        difference: String,
+    },
+    /// A line is not a result.
+    #[error("{}, line {line}: {cause}; remove that line, and give the same command again", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The number of the line, from 1.
+        line: usize,
+        /// The error of the line.
+        cause: String,
+    },
+    /// A line is too long to be a result.
+    #[error("{}, line {line} is longer than {} MiB, the limit of a result; check that this is the right file", path.display(), LINE_LIMIT >> 20)]
+    LongLine {
+        /// The file.
+        path: PathBuf,
+        /// The number of the line, from 1.
+        line: usize,
+    },
+    /// A run has two results.
+    #[error("{} and {} both have the run `{key}`; merge each part once, and only parts of the same division", first.display(), second.display())]
+    Twice {
+        /// One of the files.
+        first: PathBuf,
+        /// The other one.
+        second: PathBuf,
+        /// The key of the run.
+        key: String,
+    },
+}
+
+impl ResultsError {
+    pub(super) fn file(path: &Path) -> impl Fn(io::Error) -> Self {
+        let path = path.to_owned();
+        move |cause| Self::File { path: path.clone(), cause }
+    }
+}
+
+/// The indices of a sweep's runs by their keys.
+pub(super) fn indices(sweep: &Sweep) -> HashMap<String, u64> {
+    sweep.runs().map(|run| (run.key(), run.index)).collect()
+}
+
+/// A file of results that is open for writing.
+#[derive(Debug)]
+pub struct Results {
+    path: PathBuf,
+    file: File,
+}
+
+impl Results {
+    /// Opens or creates the file of results at `path`, and returns the figures of its runs by index, without those that
+    /// crashed. An incomplete last line is removed. No other process can write to the file until this is dropped.
+    ///
+    /// # Errors
+    /// [`ResultsError`] if the file cannot be used, or has other content than results of the part of `sweep` in
+    /// `header`.
+    pub fn open(
+        path: &Path,
+        header: &Header,
+        provenance: &Provenance,
+        sweep: &Sweep,
+    ) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
+        let indices = indices(sweep);
+        let mut there = BTreeMap::new();
+        let differs = |found: &Header| difference(found, header);
+        let results = Self::open_with(path, header, provenance, differs, |line| {
+            let (key, figures) = read_line(line).map_err(|cause| cause.to_string())?;
+            let index = indices.get(&key).filter(|_| header.shard.has(&key));
+            let index = *index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
+            let before = there.insert(index, figures);
+            if is_settled(before.as_ref()) { Err(format!("the run `{key}` occurs a second time")) } else { Ok(()) }
+        })?;
+        there.retain(|_, figures| is_settled(Some(figures)));
+        Ok((results, there))
+    }
+
+    /// Opens or creates the file of results at `path`, and passes every complete line after the header to `each`. An
+    /// incomplete last line is removed. No other process can write to the file until this is dropped. `differs` describes the difference of a
+    /// header from the expected one.
+    ///
+    /// # Errors
+    /// [`ResultsError`] if the file cannot be used, if `differs` has a difference, or if `each` refuses a line.
+    pub fn open_with<H: Document + DeserializeOwned>(
+        path: &Path,
+        header: &H,
+        provenance: &Provenance,
+        differs: impl Fn(&H) -> Option<String>,
+        mut each: impl FnMut(&str) -> Result<(), String>,
+    ) -> Result<Self, ResultsError> {
+        let failed = ResultsError::file(path);
+        let file = locked(path)?;
+        let mut lines = Lines::new(path, &file);
+        let found = lines.header()?;
+        if let Some(difference) = found.as_ref().and_then(differs) {
+            return Err(ResultsError::Other { path: path.to_owned(), difference });
+        }
+        while let Some((line, text)) = lines.next()? {
+            each(&text).map_err(|cause| ResultsError::Line { path: path.to_owned(), line, cause })?;
+        }
+        let whole = lines.whole();
+        file.set_len(whole).map_err(&failed)?;
+        let mut results = Self { path: path.to_owned(), file };
+        if found.is_none() {
+            let header =
+                serde_json::to_string(&header.versioned(Some(provenance))).map_err(io::Error::from).map_err(&failed)?;
+            results.add(&header)?;
+            file::sync_name(path).map_err(&failed)?;
+        }
+        Ok(results)
+    }
+
+    /// Adds the line of a run. It is on the disk when this returns.
+    ///
+    /// # Errors
+    /// [`ResultsError::File`] if it cannot be written.
+    pub fn add(&mut self, line: &str) -> Result<(), ResultsError> {
+        // One write, so that a line is complete or the incomplete end of the file.
+        let line = format!("{}\n", line.trim_end());
+        let written = if line.len() > LINE_LIMIT {
+            // Such a line could not be read again.
+            Err(io::Error::new(io::ErrorKind::InvalidData, "a line of results would be too long"))
+        } else {
+            self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data())
+        };
+        written.map_err(ResultsError::file(&self.path))
+    }
+}
+
+/// True if a run with these figures is not repeated. What made a process crash, such as a lack of memory, may be over. So a run that
+/// crashed is repeated when its sweep is resumed, and its later line replaces the one of the crash.
+pub(super) fn is_settled(figures: Option<&Figures>) -> bool {
+    figures.is_some_and(|figures| figures.ending != Ending::Crashed)
+}
+
+/// Checks that results with this `header` may replace the file at `path`: there is none, or it has results of the same
+/// sweep. While the returned file is open, no sweep writes to it.
+pub(super) fn check_path(path: &Path, header: &Header) -> Result<Option<File>, ResultsError> {
+    // Anything but a regular file has no content that could be lost.
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let file = file::open(path).map_err(ResultsError::file(path))?;
+    lock(path, &file)?;
+    if let Some(difference) = Lines::new(path, &file).header()?.and_then(|found| difference(&found, header)) {
+        return Err(ResultsError::Other { path: path.to_owned(), difference });
+    }
+    Ok(Some(file))
+}
+
+/// Opens a file of results. No other process writes to it while it is open.
+fn locked(path: &Path) -> Result<File, ResultsError> {
+    loop {
+        let file = file::append(path).map_err(ResultsError::file(path))?;
+        lock(path, &file)?;
+        // Merged results may have replaced the file before it was locked. Lines that are added to the old file would be
+        // lost.
+        if file::is_at(&file, path) {
+            return Ok(file);
+        }
+    }
+}
+
+/// Locks a file of results against other writers while it is open.
+fn lock(path: &Path, file: &File) -> Result<(), ResultsError> {
+    file.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => ResultsError::Busy { path: path.to_owned() },
+        TryLockError::Error(cause) => ResultsError::file(path)(cause),
+    })
+}
+
+/// The difference of the results of `found` from those of `header`, if there is one.
+fn difference(found: &Header, header: &Header) -> Option<String> {
+    let other_shard = || format!("the shard {}, this one is {}", found.shard, header.shard);
+    found.difference(header).or_else(|| (found.shard != header.shard).then(other_shard))
+}

@@ -1,0 +1,157 @@
+//! Statements and expressions.
+
+use vibrissa_text::diagnostic::Span;
+
+use super::{Name, Quantity};
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Statement {
+    Let {
+        name: Name,
+        value: Expression,
+    },
+    /// `set name = value`
+    Set {
+        name: Name,
+        value: Expression,
+    },
+    /// Conditions with their blocks, in the order of evaluation, and the `else` block.
+    If {
+        branches: Vec<(Expression, Vec<Statement>)>,
+        otherwise: Vec<Statement>,
+    },
+    Do {
+        law: Name,
+        values: Vec<Expression>,
+        span: Span,
+    },
+    Record(Expression),
+    /// `record position in contour`
+    RecordPosition {
+        position: Expression,
+        contour: Name,
+    },
+    /// `mark name whisker`
+    Mark {
+        name: Name,
+        whisker: Expression,
+    },
+    Steer(Box<Steer>),
+    /// `tell monitor.event(values)`
+    Tell {
+        monitor: Name,
+        event: Name,
+        values: Vec<Expression>,
+        span: Span,
+    },
+    /// `plot name = value`
+    Plot {
+        name: Name,
+        value: Expression,
+    },
+    /// `log "text", values`
+    Log {
+        text: Name,
+        values: Vec<Expression>,
+        span: Span,
+    },
+    Hold(Span),
+    Stop(Span),
+}
+
+/// `steer mover along direction at speed facing angle`
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Steer {
+    /// The whisker whose base moves. `None` for the body.
+    pub(crate) whisker: Option<Expression>,
+    pub(crate) along: Expression,
+    pub(crate) speed: Expression,
+    pub(crate) turn: Turn,
+    pub(crate) span: Span,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Turn {
+    Facing(Expression),
+    Turning(Expression),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Expression {
+    pub(crate) kind: Kind,
+    pub(crate) span: Span,
+    /// Levels of nesting below this node. The parser bounds them.
+    pub(crate) depth: usize,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Kind {
+    Quantity(Quantity),
+    Truth(bool),
+    /// `name`, `name(values)`, `body`
+    Root {
+        name: Name,
+        values: Option<Vec<Expression>>,
+    },
+    /// `owner.name`, `owner.name(values)`
+    Member {
+        owner: Box<Expression>,
+        name: Name,
+        values: Option<Vec<Expression>>,
+    },
+    Norm(Box<Expression>),
+    Negate(Box<Expression>),
+    Not(Box<Expression>),
+    /// `name: value`, only among the values of a call.
+    Named {
+        name: Name,
+        value: Box<Expression>,
+    },
+    /// `if condition then value else otherwise`
+    If {
+        condition: Box<Expression>,
+        value: Box<Expression>,
+        otherwise: Box<Expression>,
+    },
+    Binary {
+        operator: Binary,
+        left: Box<Expression>,
+        right: Box<Expression>,
+    },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Binary {
+    Or,
+    And,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Equal,
+    Unequal,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+}
+
+impl Binary {
+    /// The text of the operator.
+    pub(crate) fn symbol(self) -> &'static str {
+        match self {
+            Self::Or => "or",
+            Self::And => "and",
+            Self::Less => "<",
+            Self::LessOrEqual => "<=",
+            Self::Greater => ">",
+            Self::GreaterOrEqual => ">=",
+            Self::Equal => "==",
+            Self::Unequal => "!=",
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+        }
+    }
+}

@@ -1,0 +1,406 @@
+//! Members of whiskers, contours, the body and a run.
+
+use crate::test::{PlotFigure, RunFigure};
+use crate::types::Type;
+use vibrissa_runtime::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::units::Dimension;
+
+/// A member of a whisker, a contour, the body or a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Member {
+    pub(crate) name: &'static str,
+    pub(crate) r#type: Type,
+    pub(crate) source: MemberSource,
+    /// The value that the member returns for arguments, if it takes some.
+    pub(crate) at: Option<At>,
+    /// The meaning, for hover texts and the reference page.
+    pub(crate) meaning: &'static str,
+}
+
+/// The source of a member's value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum MemberSource {
+    Scalar(WhiskerScalar),
+    Vector(WhiskerVector),
+    /// The contour of the whisker. Its value is that of the whisker.
+    Contour,
+    Body(BodyScalar),
+    BodyPosition,
+    /// The component of a vector with this index. Its dimension is that of the vector.
+    Component(u16),
+    /// The middle of the nose.
+    Nose,
+    /// The middle of the tail.
+    Tail,
+    /// Only with arguments.
+    At,
+    Run(RunFigure),
+    /// Number of entries of a state, which is the argument.
+    Visits,
+    /// Total time in a state, which is the argument.
+    TimeIn,
+    /// A figure of a plot, which is the argument. Its type is that of the plot.
+    Plot(PlotFigure),
+}
+
+/// A value that a member returns for arguments.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum At {
+    /// Position of the tip at a base angle.
+    Tip,
+    /// A vector of the contour at a distance from its newest end.
+    Contour(ContourVector),
+    /// True if a loop is closed within a distance, after a time.
+    LoopClosed,
+}
+
+impl At {
+    /// The names of the arguments, their types, and examples.
+    pub(crate) fn takes(self) -> &'static [(&'static str, Type, &'static str)] {
+        match self {
+            Self::Tip => &[("base angle", Type::ANGLE, "300 urad")],
+            Self::Contour(_) => &[("distance behind the end", Type::LENGTH, "5 mm")],
+            Self::LoopClosed => &[("largest distance", Type::LENGTH, "5 mm"), ("least time", Type::TIME, "5 s")],
+        }
+    }
+}
+
+const fn member(name: &'static str, r#type: Type, source: MemberSource, meaning: &'static str) -> Member {
+    Member { name, r#type, source, at: None, meaning }
+}
+
+const fn scalar(name: &'static str, r#type: Type, quantity: WhiskerScalar, meaning: &'static str) -> Member {
+    member(name, r#type, MemberSource::Scalar(quantity), meaning)
+}
+
+const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
+    member(name, Type::Position, MemberSource::Vector(quantity), meaning)
+}
+
+/// A vector of plain numbers has components of this type.
+const VECTOR: [Member; 2] = [
+    member("x", Type::NUMBER, MemberSource::Component(0), "the first component of a vector"),
+    member("y", Type::NUMBER, MemberSource::Component(1), "the second component of a vector"),
+];
+
+const WHISKER: [Member; 15] = [
+    scalar(
+        "deflection",
+        Type::ANGLE,
+        WhiskerScalar::BaseAngle,
+        "the filtered angle of its base, counter-clockwise positive",
+    ),
+    scalar(
+        "deflection_spread",
+        Type::ANGLE,
+        WhiskerScalar::BaseAngleDeviation,
+        "standard deviation of `deflection`, from the noise that the rig states or that was measured in free air, and from vibrations of the shaft",
+    ),
+    scalar(
+        "touching",
+        Type::Truth,
+        WhiskerScalar::Touching,
+        "true if the magnitude of the base angle exceeds the rig's contact threshold and five standard deviations",
+    ),
+    scalar("yaw", Type::ANGLE, WhiskerScalar::Yaw, "the direction of the undeflected shaft"),
+    scalar(
+        "side",
+        Type::NUMBER,
+        WhiskerScalar::Side,
+        "the side of the platform: \u{2212}1 on the right, 1 on the left",
+    ),
+    scalar(
+        "sense",
+        Type::NUMBER,
+        WhiskerScalar::Sense,
+        "the sign of the base angle: 1 for the sign that forward motion causes, \u{2212}1 for the other, 0 without contact",
+    ),
+    scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of the shaft"),
+    position("tip", WhiskerVector::Tip, "the position of the tip, as estimated by the contact estimator"),
+    member(
+        "tip_base",
+        Type::DISPLACEMENT,
+        MemberSource::Vector(WhiskerVector::TipBase),
+        "the displacement of the tip from the base: x along the undeflected shaft, y to its left",
+    ),
+    scalar(
+        "tip_spread",
+        Type::LENGTH,
+        WhiskerScalar::TipDeviation,
+        "standard deviation of `tip` as the contact estimator reports it. It is infinite beyond its range",
+    ),
+    position("base", WhiskerVector::Base, "the position of the base"),
+    scalar(
+        "fitted",
+        Type::Truth,
+        WhiskerScalar::Fitted,
+        "true if the rig has the whisker. Only whiskers that are bound `if fitted` may be missing",
+    ),
+    Member {
+        at: Some(At::Tip),
+        ..member(
+            "tip_at",
+            Type::DISPLACEMENT,
+            MemberSource::At,
+            "the displacement of the tip from the base at a given base angle, in the axes of `tip_base`",
+        )
+    },
+    Member {
+        at: Some(At::LoopClosed),
+        ..member(
+            "loop_closed",
+            Type::Truth,
+            MemberSource::At,
+            "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around. A whisker can close one loop in a run: behind a gap, the same loop goes on. `trace_object` in `std.object` traces several objects",
+        )
+    },
+    member(
+        "contour",
+        Type::Contour,
+        MemberSource::Contour,
+        "the local contour behind the tip, from the points of `record`",
+    ),
+];
+
+const CONTOUR: [Member; 6] = [
+    scalar(
+        "ready",
+        Type::Truth,
+        WhiskerScalar::ContourReady,
+        "true if a point was recorded in this tick or the one before, and there are enough points for a curve: seven, unless the policy states another number",
+    ),
+    Member {
+        at: Some(At::Contour(ContourVector::Tangent)),
+        ..member(
+            "tangent",
+            Type::Direction,
+            MemberSource::Vector(WhiskerVector::ContourTangent),
+            "the tangent of the curve in the direction of travel, at its newest end or at a distance behind it",
+        )
+    },
+    Member {
+        at: Some(At::Contour(ContourVector::Normal)),
+        ..member(
+            "normal",
+            Type::Direction,
+            MemberSource::Vector(WhiskerVector::ContourNormal),
+            "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded. A contour of positions has it on the left",
+        )
+    },
+    position("end", WhiskerVector::ContourEnd, "the newest point of the contour"),
+    Member {
+        at: Some(At::Contour(ContourVector::Point)),
+        ..member(
+            "point",
+            Type::Position,
+            MemberSource::At,
+            "the point of the curve at a distance behind its newest end",
+        )
+    },
+    scalar(
+        "curvature",
+        Type::Scalar(Dimension::new(-1, 1, 0, 0)),
+        WhiskerScalar::ContourCurvature,
+        "the curvature at the newest end, counter-clockwise positive",
+    ),
+];
+
+const BODY: [Member; 12] = [
+    member(
+        "yaw",
+        Type::ANGLE,
+        MemberSource::Body(BodyScalar::Yaw),
+        "the heading of the platform, without wrapping at full rotations",
+    ),
+    member("position", Type::Position, MemberSource::BodyPosition, "the centre of mass of the platform"),
+    member(
+        "blocked",
+        Type::Truth,
+        MemberSource::Body(BodyScalar::Blocked),
+        "true if the body is blocked: an obstacle prevents it from following its commands",
+    ),
+    member(
+        "shortfall",
+        Type::SPEED,
+        MemberSource::Body(BodyScalar::Shortfall),
+        "the difference between commanded and actual speed, averaged over 0.2 s, at the corner of the body where it is largest",
+    ),
+    member("nose", Type::Position, MemberSource::Nose, "the middle of the nose of the platform, from the rig"),
+    member("tail", Type::Position, MemberSource::Tail, "the middle of the tail of the platform, from the rig"),
+    member(
+        "length",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::Length),
+        "the length of the platform from tail to nose, from the rig",
+    ),
+    member(
+        "width",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::Width),
+        "the greatest width of the platform, from the rig",
+    ),
+    member(
+        "nose_width",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::NoseWidth),
+        "the width of the platform at the nose, from the rig",
+    ),
+    member(
+        "tail_width",
+        Type::LENGTH,
+        MemberSource::Body(BodyScalar::TailWidth),
+        "the width of the platform at the tail, from the rig",
+    ),
+    member(
+        "flexibility",
+        Type::NUMBER,
+        MemberSource::Body(BodyScalar::Flexibility),
+        "the ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape, from the rig",
+    ),
+    member(
+        "decay",
+        Type::TIME,
+        MemberSource::Body(BodyScalar::Decay),
+        "the time in which a free vibration of the first bound whisker decreases to 37 %, from the rig",
+    ),
+];
+
+const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'static str) -> Member {
+    member(name, r#type, MemberSource::Run(figure), meaning)
+}
+
+const RUN: [Member; 26] = [
+    figure(
+        "passed",
+        Type::Truth,
+        RunFigure::Passed,
+        "true if the run fulfils the expectations of its scenario. A scenario without expectations expects completion",
+    ),
+    figure(
+        "completed",
+        Type::Truth,
+        RunFigure::Completed,
+        "true if the run completed: the policy succeeded, the loop closed, the goal was reached, or the time of a scenario without an aim ended",
+    ),
+    figure("failed", Type::Truth, RunFigure::Failed, "true if the run ended in `Failure`"),
+    figure(
+        "timed_out",
+        Type::Truth,
+        RunFigure::TimedOut,
+        "true if the run reached its time limit before the loop closed",
+    ),
+    figure("diverged", Type::Truth, RunFigure::Diverged, "true if the simulation diverged"),
+    figure("time", Type::TIME, RunFigure::Time, "the simulated time"),
+    figure("error_mean", Type::LENGTH, RunFigure::ErrorMean, "the mean distance of the recorded tips from the object"),
+    figure(
+        "error_p95",
+        Type::LENGTH,
+        RunFigure::ErrorP95,
+        "the 95th percentile of the distances of the recorded tips from the object",
+    ),
+    figure(
+        "error_max",
+        Type::LENGTH,
+        RunFigure::ErrorMax,
+        "the maximum of the distances of the recorded tips from the object",
+    ),
+    figure(
+        "outliers",
+        Type::NUMBER,
+        RunFigure::Outliers,
+        "the share of recorded tips with an error above 0.1 mm plus four reported standard deviations, 0 to 1",
+    ),
+    figure(
+        "hausdorff",
+        Type::LENGTH,
+        RunFigure::Hausdorff,
+        "the Hausdorff distance between the estimated and the exact contour",
+    ),
+    figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the exact contour that was traced, 0 to 1"),
+    figure(
+        "retrievals",
+        Type::NUMBER,
+        RunFigure::Retrievals,
+        "the number of retrievals: from `mark lost` to the next `mark found` of the same whisker",
+    ),
+    figure(
+        "retrieval_radius",
+        Type::LENGTH,
+        RunFigure::RetrievalRadius,
+        "the mean distance from the edge point to the retrieved point. Unknown without a retrieval",
+    ),
+    figure(
+        "retrieval_distance",
+        Type::LENGTH,
+        RunFigure::RetrievalDistance,
+        "the mean path length of the platform during a retrieval. Unknown without a retrieval",
+    ),
+    figure(
+        "axis_mean",
+        Type::LENGTH,
+        RunFigure::AxisMean,
+        "the mean distance of the estimated midpoints from the axis of a tunnel. Unknown outside of tunnels",
+    ),
+    figure(
+        "corner_place_max",
+        Type::LENGTH,
+        RunFigure::CornerPlaceMax,
+        "the maximum error of the estimated positions of sharp corners. Unknown if there is no sharp corner, or if one was not traced",
+    ),
+    figure(
+        "corner_time_max",
+        Type::TIME,
+        RunFigure::CornerTimeMax,
+        "the maximum time for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
+    ),
+    figure(
+        "corner_path_max",
+        Type::LENGTH,
+        RunFigure::CornerPathMax,
+        "the maximum path length of the platform for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
+    ),
+    figure("collisions", Type::NUMBER, RunFigure::Collisions, "the number of collisions of the platform's body"),
+    figure(
+        "inclination_beyond",
+        Type::TIME,
+        RunFigure::InclinationBeyond,
+        "the time in which whiskers are inclined so much that a round one leaves the plane, added over all whiskers. Unknown if no whisker recorded a contour",
+    ),
+    member(
+        "visits",
+        Type::NUMBER,
+        MemberSource::Visits,
+        "the number of entries of the given state: ticks that end in it or in an inner state, after a tick that did not",
+    ),
+    member("time_in", Type::TIME, MemberSource::TimeIn, "the total time in the given state or in an inner state"),
+    member(
+        "least",
+        Type::NUMBER,
+        MemberSource::Plot(PlotFigure::Least),
+        "the least value of the given plot, of its type. Unknown if it was never set",
+    ),
+    member("greatest", Type::NUMBER, MemberSource::Plot(PlotFigure::Greatest), "its greatest value"),
+    member("last", Type::NUMBER, MemberSource::Plot(PlotFigure::Last), "its last value"),
+];
+
+/// The members of a list: the name, the notation and the meaning.
+pub(crate) const LIST_MEMBERS: [(&str, &str, &str); 6] = [
+    ("count", "count", "the number of its elements"),
+    ("newest", "newest", "the element that was added last. Unknown in an empty list"),
+    ("oldest", "oldest", "the element that was added first of those that it has. Unknown in an empty list"),
+    ("element", "element(index)", "the element with an index, from 0 for the newest. Unknown if there is none"),
+    ("nearest", "nearest(position)", "of a list of positions, the one nearest to a position. Unknown in an empty list"),
+    ("with", "with(value)", "the list with a new element. A full list loses its oldest element"),
+];
+
+/// The members of a type.
+pub(crate) fn members(owner: Type) -> &'static [Member] {
+    match owner {
+        Type::Whisker => &WHISKER,
+        Type::Contour => &CONTOUR,
+        Type::Body => &BODY,
+        Type::Vector(_) | Type::Position | Type::Direction => &VECTOR,
+        Type::Run => &RUN,
+        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Compound(_) | Type::Monitor(_) => &[],
+    }
+}

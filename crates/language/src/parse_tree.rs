@@ -1,0 +1,187 @@
+//! Pairs of the grammar in a flat list. Pest's own pairs count references and include trailing blanks.
+
+use pest::Token;
+
+use vibrissa_text::diagnostic::Span;
+
+use super::grammar::Rule;
+
+/// A matched rule. In a list, its inner matches follow it directly.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Match {
+    rule: Rule,
+    /// Span in the text.
+    span: Span,
+    /// Number of inner matches, at all levels.
+    inner: usize,
+}
+
+/// All matches except those of keywords and marks without content.
+///
+/// Pest includes blanks and comments after the last part. Here the span ends with the last part, or with the closing
+/// quote of a string.
+pub(super) fn flatten(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Match> {
+    let tokens = pairs.tokens();
+    let mut all: Vec<Match> = Vec::with_capacity(tokens.len() / 2);
+    // The rules that have begun and not ended.
+    let mut begun = Vec::new();
+    let (mut end, mut has_parts) = (0, false);
+    for token in tokens {
+        match token {
+            Token::Start { rule, pos } => {
+                begun.push(all.len());
+                all.push(Match { rule, span: Span::new(pos.pos(), pos.pos()), inner: 0 });
+                has_parts = false;
+            }
+            Token::End { rule, pos } => {
+                if !has_parts || rule == Rule::text {
+                    end = pos.pos();
+                }
+                has_parts = true;
+                let Some(index) = begun.pop() else { continue };
+                if is_marker(rule) {
+                    all.truncate(index);
+                } else {
+                    let inner = all.len() - index - 1;
+                    all[index] = Match { rule, span: Span::new(all[index].span.start, end), inner };
+                }
+            }
+        }
+    }
+    all
+}
+
+/// A matched rule in its text.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair<'i> {
+    found: &'i Match,
+    /// The inner matches.
+    inner: &'i [Match],
+    text: &'i str,
+    /// First byte of the text in the whole source.
+    start: usize,
+}
+
+impl<'i> Pair<'i> {
+    pub(super) fn as_rule(self) -> Rule {
+        self.found.rule
+    }
+
+    pub(super) fn as_str(self) -> &'i str {
+        self.text.get(self.found.span.start..self.found.span.end).unwrap_or_default()
+    }
+
+    /// Span in the whole source.
+    pub(super) fn span(self) -> Span {
+        Span::new(self.start + self.found.span.start, self.start + self.found.span.end)
+    }
+
+    pub(super) fn into_inner(self) -> Pairs<'i> {
+        Pairs::new(self.inner, self.text, self.start)
+    }
+}
+
+/// Matches at one level, in the order of the text.
+#[derive(Debug, Clone)]
+pub(super) struct Pairs<'i> {
+    /// The remaining matches with their inner ones.
+    rest: &'i [Match],
+    text: &'i str,
+    start: usize,
+}
+
+impl<'i> Pairs<'i> {
+    /// All matches in a text that begins at the byte `start` of the source.
+    pub(super) fn new(all: &'i [Match], text: &'i str, start: usize) -> Self {
+        Self { rest: all, text, start }
+    }
+
+    /// The rule of the next match.
+    pub(super) fn rule(&self) -> Option<Rule> {
+        Some(self.rest.first()?.rule)
+    }
+}
+
+impl<'i> Iterator for Pairs<'i> {
+    type Item = Pair<'i>;
+
+    fn next(&mut self) -> Option<Pair<'i>> {
+        let (found, behind) = self.rest.split_first()?;
+        let (inner, rest) = behind.split_at_checked(found.inner)?;
+        self.rest = rest;
+        Some(Pair { found, inner, text: self.text, start: self.start })
+    }
+}
+
+/// True if a rule is a keyword or a mark without content.
+fn is_marker(rule: Rule) -> bool {
+    matches!(
+        rule,
+        Rule::kw_machine
+            | Rule::kw_library
+            | Rule::tests_word
+            | Rule::kw_use
+            | Rule::kw_by
+            | Rule::kw_needs
+            | Rule::kw_param
+            | Rule::kw_initial
+            | Rule::kw_type
+            | Rule::kw_let
+            | Rule::kw_law
+            | Rule::kw_state
+            | Rule::kw_always
+            | Rule::kw_assume
+            | Rule::kw_never
+            | Rule::within
+            | Rule::kw_failsafe
+            | Rule::kw_when
+            | Rule::kw_after
+            | Rule::kw_for
+            | Rule::kw_in
+            | Rule::kw_of
+            | Rule::kw_if
+            | Rule::kw_then
+            | Rule::kw_else
+            | Rule::kw_do
+            | Rule::kw_record
+            | Rule::kw_mark
+            | Rule::kw_steer
+            | Rule::kw_along
+            | Rule::kw_at
+            | Rule::kw_facing
+            | Rule::kw_turning
+            | Rule::kw_hold
+            | Rule::kw_stop
+            | Rule::kw_var
+            | Rule::kw_set
+            | Rule::kw_behaviour
+            | Rule::kw_monitor
+            | Rule::kw_is
+            | Rule::on_word
+            | Rule::tell_word
+            | Rule::plot_word
+            | Rule::log_word
+            | Rule::list_word
+            | Rule::kw_entry
+            | Rule::kw_exit
+            | Rule::kw_test
+            | Rule::kw_property
+            | Rule::spanning
+            | Rule::contour_word
+            | Rule::points
+            | Rule::apart
+            | Rule::kw_expect
+            | Rule::open
+            | Rule::close
+            | Rule::open_brace
+            | Rule::close_brace
+            | Rule::bar
+            | Rule::comma
+            | Rule::colon
+            | Rule::dot
+            | Rule::dots
+            | Rule::equals
+            | Rule::arrow
+            | Rule::EOI
+    )
+}

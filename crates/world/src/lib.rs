@@ -1,0 +1,17 @@
+//! Scenes, and a simulator of whiskers in them.
+//!
+//! - [`scenario`] reads the YAML format into a [`scene::Scene`]: rig, solids, start, stop condition, expectations.
+//! - [`geometry`] has exact contours, [`solid`] objects with their convex parts, `outline` readers of drawings.
+//! - [`physics`] has the settings of a simulation, and [`mismatch`] the differences between the simulated and the assumed array.
+//! - [`world`] has the trait [`world::World`] of simulators, and what is the same for all of them.
+//! - [`quasi_static`] is the simulator without a library. The other one is the crate `vibrissa-mujoco`.
+
+pub mod geometry;
+pub mod mismatch;
+pub mod outline;
+pub mod physics;
+pub mod quasi_static;
+pub mod scenario;
+pub mod scene;
+pub mod solid;
+pub mod world;
