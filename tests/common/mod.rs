@@ -4,12 +4,12 @@
 
 use std::sync::Arc;
 
-use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::geometry::Vector2;
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
+use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::machine::{
     Action, BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector,
 };
+use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
 /// What one whisker is like; numbers and truths as the machine sees them.
 #[derive(Debug, Clone, Copy)]

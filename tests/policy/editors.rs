@@ -68,7 +68,7 @@ fn every_rule_that_the_editors_grammar_includes_is_there() {
 }
 
 const EXTENSION: &str = include_str!("../../editors/vscode/extension.js");
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/editors/vscode");
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../editors/vscode");
 
 fn json(file: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(format!("{FOLDER}/{file}")).unwrap()).unwrap()

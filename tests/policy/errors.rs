@@ -1,8 +1,8 @@
 //! What a malformed policy is answered with, as a user sees it: one fixture a kind, one snapshot a fixture.
 
 use crate::snapshots::snapshots;
-use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
+use vibrissa_text::diagnostic::{Colour, Diagnostic, Source, terminal};
 
 fn faults(text: &str) -> Vec<Diagnostic> {
     compile(&Source::new("policy.fsm", text)).err().unwrap_or_default()

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::common::{Feel, Script, run};
 use proptest::prelude::*;
-use vibrissa::geometry::{Vector2, rotate, wrap};
+use vibrissa_runtime::geometry::{Vector2, rotate, wrap};
 use vibrissa_runtime::machine::{Action, Turn};
 use vibrissa_runtime::math;
 

@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 
 use crate::snapshots::snapshots;
 use proptest::prelude::*;
-use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::policy::{compile, format};
+use vibrissa_language::{compile, format};
 use vibrissa_runtime::machine::Program;
+use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 fn formatted(text: &str) -> String {
     let source = Source::new("policy.fsm", text);

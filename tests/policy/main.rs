@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
-mod chart;
 mod codes;
 #[path = "../common/mod.rs"]
 mod common;
@@ -16,8 +15,6 @@ mod names;
 mod page;
 mod programs;
 mod recovery;
-#[path = "../common/seen.rs"]
-mod seen;
 mod shorter_code;
 #[path = "../common/snapshots.rs"]
 mod snapshots;

@@ -1,10 +1,10 @@
 //! Where names are known, and which may be the same.
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::index::{Index, Role};
-use vibrissa::policy::{compile, compile_with_warnings};
+use vibrissa_language::index::{Index, Role};
+use vibrissa_language::{compile, compile_with_warnings};
 use vibrissa_runtime::machine::Action;
+use vibrissa_text::diagnostic::Source;
 
 use crate::common::{Script, run};
 

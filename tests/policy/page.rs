@@ -1,7 +1,7 @@
 //! The examples of the language's page are policies.
 
-use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
+use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
 const PAGE: &str = include_str!("../../docs/language.md");
 

@@ -1,8 +1,8 @@
 //! One fault of syntax does not hide the others, and gives rise to none.
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
-use vibrissa::policy::{chart, compile, format};
+use vibrissa_language::{chart, compile, format};
+use vibrissa_text::diagnostic::{Colour, Diagnostic, Source, terminal};
 
 const WHOLE: &str = include_str!("../fixtures/policies/whole/swiping.fsm");
 

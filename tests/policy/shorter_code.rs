@@ -1,8 +1,8 @@
 //! What compiled code does not do twice, and what it does once a run.
 
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
 use vibrissa_runtime::machine::{Op, Program};
+use vibrissa_text::diagnostic::Source;
 
 /// A program with one state that does this every tick.
 fn doing(body: &str) -> Program {

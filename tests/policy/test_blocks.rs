@@ -1,10 +1,8 @@
 //! What is said of a test that a policy carries, as a user sees it: one fixture a kind, one snapshot a fixture.
 
-use std::process::Command;
-
 use crate::snapshots::snapshots;
-use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
-use vibrissa::policy::{RunFigure, compile_with_warnings};
+use vibrissa_language::{RunFigure, compile_with_warnings};
+use vibrissa_text::diagnostic::{Colour, Diagnostic, Source, terminal};
 
 #[test]
 fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
@@ -43,17 +41,6 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
     let faults: Vec<Diagnostic> = faults.collect();
     snapshots("policies")
         .bind(|| insta::assert_snapshot!(format!("test@{name}"), terminal(&source, &faults, Colour::Plain)));
-}
-
-#[test]
-fn a_scenario_that_cannot_be_read_is_shown_where_the_test_names_it() {
-    let name = "scenario_that_is_not_there.fsm";
-    let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
-    command.args(["test", &format!("tests/fixtures/policies/test/{name}")]).current_dir(env!("CARGO_MANIFEST_DIR"));
-    let output = command.output().unwrap();
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    snapshots("policies")
-        .bind(|| insta::assert_snapshot!(format!("test@{name}"), String::from_utf8(output.stderr).unwrap()));
 }
 
 #[test]

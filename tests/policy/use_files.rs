@@ -4,10 +4,10 @@ use std::cell::RefCell;
 
 use crate::snapshots::snapshots;
 use proptest::prelude::*;
-use vibrissa::diagnostic::{Colour, Diagnostic, Source, records, terminal};
-use vibrissa::policy::{Checked, check, compile, compile_with_warnings, format, gather};
+use vibrissa_language::{Checked, check, compile, compile_with_warnings, format, gather};
+use vibrissa_text::diagnostic::{Colour, Diagnostic, Source, records, terminal};
 
-const FIXTURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/policies/use");
+const FIXTURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/fixtures/policies/use");
 
 /// A source with files that are given as names and texts.
 fn gathered(text: &str, files: &[(&str, String)]) -> Source {

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use crate::snapshots::snapshots;
 use proptest::prelude::*;
-use vibrissa::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
-use vibrissa::geometry::Vector2;
-use vibrissa::policy::{compile, compile_with_warnings, gather};
+use vibrissa_language::{compile, compile_with_warnings, gather};
+use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::machine::{BodyScalar, ContourVector, Machine, Senses, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::units::parse_quantity;
+use vibrissa_text::diagnostic::{Colour, Diagnostic, Severity, Source, terminal};
 
 fn warnings(text: &str) -> Vec<Diagnostic> {
     let source = Source::new("policy.fsm", text);
@@ -337,7 +337,9 @@ proptest! {
 
 #[test]
 fn good_policies_have_no_warnings() {
-    let files = std::fs::read_dir("policies").unwrap().map(|entry| entry.unwrap().path());
+    let files = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../policies"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
     let policies: Vec<_> = files.filter(|path| path.extension().is_some_and(|extension| extension == "fsm")).collect();
     assert!(!policies.is_empty());
     for path in policies {

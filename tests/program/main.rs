@@ -18,6 +18,8 @@ mod metrics;
 mod other_rigs;
 #[cfg(feature = "sim")]
 mod policies;
+#[path = "../common/snapshots.rs"]
+mod snapshots;
 #[cfg(feature = "sim")]
 mod thesis_array;
 mod tutorial;

@@ -1,8 +1,8 @@
 //! What holds for every text.
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::index::{Index, Symbol, SymbolKind};
+use vibrissa_language::index::{Index, Symbol, SymbolKind};
+use vibrissa_text::diagnostic::Source;
 
 use super::policies::{THESIS, index, policies};
 
@@ -40,7 +40,7 @@ proptest! {
 #[test]
 fn the_layout_of_a_policy_does_not_change_what_it_declares() {
     for (name, text) in policies() {
-        let formatted = vibrissa::policy::format(&Source::new(name.as_str(), text.as_str())).unwrap();
+        let formatted = vibrissa_language::format(&Source::new(name.as_str(), text.as_str())).unwrap();
         assert_eq!(kinds(&index(&text)), kinds(&index(&formatted)), "{name}");
     }
 }

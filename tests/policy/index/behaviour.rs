@@ -1,6 +1,6 @@
 //! Behaviours and monitors: what their names mean, and what can be written about them.
 
-use vibrissa::policy::index::Index;
+use vibrissa_language::index::Index;
 
 use super::candidate::{candidates, labels};
 use super::policies::{gathered, index};
@@ -66,7 +66,7 @@ fn a_name_in_a_behaviour_is_renamed_wherever_it_is_meant() {
         for place in places.into_iter().rev() {
             text.replace_range(place.start..place.end, "another");
         }
-        assert!(vibrissa::policy::compile(&gathered(&text)).is_ok(), "{text}");
+        assert!(vibrissa_language::compile(&gathered(&text)).is_ok(), "{text}");
     }
     // The memory of a monitor is read by the name of its use.
     assert_eq!(index.references(at("place = w.tip\n")).len(), 3);

@@ -1,6 +1,6 @@
 //! What can be written at a place.
 
-use vibrissa::policy::index::{Candidate, Index};
+use vibrissa_language::index::{Candidate, Index};
 
 use super::policies::{USING, gathered};
 

@@ -1,8 +1,8 @@
 //! Where names are given.
 
-use vibrissa::diagnostic::{Source, Span};
-use vibrissa::policy::check;
-use vibrissa::policy::index::{Index, RenameError};
+use vibrissa_language::check;
+use vibrissa_language::index::{Index, RenameError};
+use vibrissa_text::diagnostic::{Source, Span};
 
 use super::policies::{SWIPE, USING, gathered, index, policies};
 

@@ -1,6 +1,6 @@
 //! What is said of a word.
 
-use vibrissa::policy::index::{CandidateKind, Index};
+use vibrissa_language::index::{CandidateKind, Index};
 
 use super::candidate::candidates;
 use super::policies::{SWIPE, THESIS, gathered, index, policies};

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::check;
-use vibrissa::policy::index::{Index, gather};
+use vibrissa_language::check;
+use vibrissa_language::index::{Index, gather};
+use vibrissa_text::diagnostic::Source;
 
-pub(crate) const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+pub(crate) const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 pub(crate) const THESIS: &str = include_str!("../../fixtures/editor/thesis.fsm");
 pub(crate) const SWIPE: &str = include_str!("../../fixtures/editor/swipe.fsm");
 

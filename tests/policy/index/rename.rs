@@ -1,9 +1,9 @@
 //! Other names for things.
 
-use vibrissa::diagnostic::{Diagnostic, Source, Span};
-use vibrissa::policy::index::{Index, RenameError, Role, SymbolKind};
-use vibrissa::policy::{check, compile};
+use vibrissa_language::index::{Index, RenameError, Role, SymbolKind};
+use vibrissa_language::{check, compile};
 use vibrissa_runtime::machine::Program;
+use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::policies::{SWIPE, THESIS, gathered, index, policies};
 

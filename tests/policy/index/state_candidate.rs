@@ -1,6 +1,6 @@
 //! What can be written about states in states, in a mark and in a test.
 
-use vibrissa::policy::index::RenameError;
+use vibrissa_language::index::RenameError;
 
 use super::candidate::{candidates, labels};
 use super::policies::{MARKING, index};

@@ -1,9 +1,9 @@
 //! What behaviours mean, by example. Random ones are compared with an interpreter in `nesting`.
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::{compile, compile_with_warnings, gather};
+use vibrissa_language::{compile, compile_with_warnings, gather};
 use vibrissa_runtime::machine::Action;
+use vibrissa_text::diagnostic::Source;
 
 use crate::common::{Script, program, run, states};
 

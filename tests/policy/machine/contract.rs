@@ -1,10 +1,10 @@
 //! What contracts mean: when they are evaluated, which of them are proved, and the margins of the others.
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::compile_with_warnings;
+use vibrissa_language::compile_with_warnings;
 use vibrissa_runtime::machine::ContractStatus;
 use vibrissa_runtime::units::Dimension;
+use vibrissa_text::diagnostic::Source;
 
 use crate::common::{Feel, Script, run};
 

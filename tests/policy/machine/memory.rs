@@ -1,9 +1,9 @@
 //! What the machine itself remembers and does, outside of states.
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
-use vibrissa::diagnostic::{Diagnostic, Source};
-use vibrissa::policy::{chart, compile_with_warnings};
+use vibrissa_language::{chart, compile_with_warnings};
 use vibrissa_runtime::machine::{Action, Cause, Failure, Fallback};
+use vibrissa_text::diagnostic::{Diagnostic, Source};
 
 use crate::common::{Script, program, run, states};
 

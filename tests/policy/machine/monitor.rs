@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::{compile, gather};
+use vibrissa_language::{compile, gather};
 use vibrissa_runtime::machine::{Action, Machine};
+use vibrissa_text::diagnostic::Source;
 
 use crate::common::{Feel, Script, program, run, run_program};
 use crate::programs::{machine, programs, scripts};

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
 use vibrissa_runtime::machine::{Machine, Program};
+use vibrissa_text::diagnostic::Source;
 
 use crate::common::Script;
 

@@ -159,7 +159,7 @@ fn arguments_are_handed_over_and_can_change_places() {
 }
 
 fn steer(y: f64, speed: f64, rate: f64) -> Action {
-    let along_world = vibrissa::geometry::Vector2::new(0.0, y);
+    let along_world = vibrissa_runtime::geometry::Vector2::new(0.0, y);
     Action::Steer { mover: Mover::Body, along_world, speed, turn: Turn::Rate(rate) }
 }
 
@@ -409,7 +409,7 @@ fn laws_take_contours_and_quantities_of_any_dimension() {
         panic!()
     };
     // As the script has it: the point is (1, -back), the tangent (back, 1), the normal (-1, back) or at the end (0.6, -0.8).
-    assert!((along_world - vibrissa::geometry::Vector2::new(1.0, 2.0 - 5e-3)).norm() < 1e-12, "{along_world}");
+    assert!((along_world - vibrissa_runtime::geometry::Vector2::new(1.0, 2.0 - 5e-3)).norm() < 1e-12, "{along_world}");
     assert!((speed - 2.0).abs() < 1e-12 && (rate - 2.0 * 1.0_f64.hypot(3e-3)).abs() < 1e-12, "{speed} {rate}");
 }
 

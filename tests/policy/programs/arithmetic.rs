@@ -1,6 +1,6 @@
 //! Operators, parts of records and lists, and units, as the interpreter computes them.
 
-use vibrissa::geometry::Vector2;
+use vibrissa_runtime::geometry::Vector2;
 
 use super::evaluate::Value;
 use super::tree::LIST_LENGTH;

@@ -1,6 +1,6 @@
 //! Expressions and statements, interpreted over their trees, with names looked up as they are met.
 
-use vibrissa::geometry::{Vector2, rotate, wrap};
+use vibrissa_runtime::geometry::{Vector2, rotate, wrap};
 use vibrissa_runtime::machine::{
     Action, BodyScalar, ContourVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector,
 };

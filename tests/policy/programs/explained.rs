@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::explain::{Explained, explain};
+use vibrissa_language::explain::{Explained, explain};
 use vibrissa_runtime::machine::{Machine, Observer, TriedGuard};
+use vibrissa_text::diagnostic::Source;
 
 use super::generate::programs;
 use super::side_by_side::{machine, scripts};

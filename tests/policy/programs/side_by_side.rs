@@ -6,10 +6,10 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use vibrissa::diagnostic::Source;
-use vibrissa::geometry::Vector2;
-use vibrissa::policy::{compile, compile_with_warnings};
+use vibrissa_language::{compile, compile_with_warnings};
+use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::machine::{self, Action, LoggedMessage, Machine, Observer, ViolatedContract};
+use vibrissa_text::diagnostic::Source;
 
 use super::evaluate::numbers_text;
 use super::generate::programs;

@@ -1,6 +1,6 @@
 //! What a `previous`, a `peak`, a `settled` and a `path_length` remember.
 
-use vibrissa::geometry::Vector2;
+use vibrissa_runtime::geometry::Vector2;
 
 use super::evaluate::Value;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use vibrissa::geometry::{Point2, Pose, Vector2, rotate, unit};
+use vibrissa_runtime::geometry::{Point2, Pose, Vector2, rotate, unit};
 use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar, WhiskerVector};
 
 /// A whisker that is felt as a test says: 0 is on the right, 1 on the left.

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use vibrissa::diagnostic::Source;
-use vibrissa::geometry::{Point2, Pose};
-use vibrissa::policy::{Checked, check};
+use vibrissa_language::{Checked, check};
+use vibrissa_runtime::geometry::{Point2, Pose};
+use vibrissa_text::diagnostic::Source;
 
 use super::felt::{Felt, swiping};
 use super::law::machine;
@@ -18,7 +18,8 @@ pub(crate) fn holds(guard: &str, whisker: usize, felt: &Felt) -> bool {
 #[test]
 fn every_module_is_sound_by_itself_and_needs_nothing_that_it_does_not_use() {
     for module in ["guards", "mounting", "platform", "retrieval", "swipe", "tunnel"] {
-        let text = std::fs::read_to_string(format!("policies/std/{module}.fsm")).unwrap();
+        let text =
+            std::fs::read_to_string(format!("{}/../../policies/std/{module}.fsm", env!("CARGO_MANIFEST_DIR"))).unwrap();
         let checked = check(&Source::new(module, text)).unwrap();
         let Checked::Library { name, warnings, .. } = checked else { panic!("{module}") };
         assert_eq!(name, module);

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::geometry::{Point2, Vector2};
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
+use vibrissa_runtime::geometry::{Point2, Vector2};
 use vibrissa_runtime::machine::{Action, Machine, Mover, Turn};
+use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
 use super::felt::Felt;
 

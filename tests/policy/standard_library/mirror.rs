@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Point2, Pose, Vector2, turn_between, unit};
+use vibrissa_runtime::geometry::{Point2, Pose, Vector2, turn_between, unit};
 use vibrissa_runtime::machine::{Mover, Turn};
 
 use super::felt::{Felt, Whisker, flipped};

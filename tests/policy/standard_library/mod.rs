@@ -5,7 +5,6 @@ mod guard;
 mod law;
 mod mirror;
 mod mounting;
-mod pictures;
 mod platform;
 mod retrieval;
 mod swiping;

@@ -3,14 +3,14 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Pose, unit};
+use vibrissa_runtime::geometry::{Pose, unit};
 use vibrissa_runtime::machine::Turn;
 
 use super::felt::{Felt, swiping};
 use super::law::{commanded, is_near, unit_vector};
 
 /// The yaw offset (rad) and the direction of travel that a policy reads.
-fn offset(whisker: usize, felt: &Felt) -> (f64, vibrissa::geometry::Vector2) {
+fn offset(whisker: usize, felt: &Felt) -> (f64, vibrissa_runtime::geometry::Vector2) {
     let does = "steer body along direction(travel_heading(w)) at 1 mm/s turning mounting_offset(w) / 1 s";
     let (_, along, _, turn) = commanded(whisker, does, felt);
     let Turn::Rate(rate) = turn else { panic!("{turn:?}") };

@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::Source;
-use vibrissa::geometry::{Point2, Pose};
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
+use vibrissa_runtime::geometry::{Point2, Pose};
 use vibrissa_runtime::machine::{Action, Machine};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
+use vibrissa_text::diagnostic::Source;
 
 /// What a policy computes for a body with this pose, in metres.
 fn told(rig: &Rig, pose: Pose, value: &str) -> f64 {

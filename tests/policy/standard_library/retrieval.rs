@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
+use vibrissa_runtime::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
 use vibrissa_runtime::machine::{Mover, Turn};
 use vibrissa_runtime::motion::Steering;
 use vibrissa_runtime::rig::Rig;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use vibrissa::geometry::{Pose, Vector2, rotate, unit};
+use vibrissa_runtime::geometry::{Pose, Vector2, rotate, unit};
 use vibrissa_runtime::machine::{Action, Mover, Senses, Turn, WhiskerVector};
 
 use super::felt::{Felt, Whisker, swiping};

@@ -6,6 +6,7 @@ use std::path::Path;
 #[cfg(feature = "sim")]
 use super::program::{ROOT, stdout};
 use super::program::{directory, stderr, vibrissa};
+use crate::snapshots::snapshots;
 
 #[test]
 fn a_test_names_a_scenario_that_can_be_read() {
@@ -86,4 +87,12 @@ fn several_policies_are_tested_in_turn() {
     let output = vibrissa(&["test", "policies/thesis.fsm", "policies/bang.fsm", "--filter", "it comes round the disk"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("policies/thesis.fsm: ") && stdout(&output).contains("policies/bang.fsm: "));
+}
+
+#[test]
+fn a_scenario_that_cannot_be_read_is_shown_where_the_test_names_it() {
+    let name = "scenario_that_is_not_there.fsm";
+    let output = vibrissa(&["test", &format!("tests/fixtures/policies/test/{name}")]);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    snapshots("policies").bind(|| insta::assert_snapshot!(format!("test@{name}"), stderr(&output)));
 }

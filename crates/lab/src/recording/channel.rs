@@ -45,12 +45,10 @@ impl JsonChannel {
     fn schema(self) -> (&'static str, &'static str) {
         match self {
             Self::Samples => ("vibrissa.Samples", include_str!("schema/samples.json")),
-            Self::Ticks => ("vibrissa.Tick", include_str!("../../../../docs/schema/tick.schema.json")),
+            Self::Ticks => ("vibrissa.Tick", include_str!("../../schema/tick.schema.json")),
             Self::State => ("vibrissa.State", include_str!("schema/state.json")),
             Self::Guards => ("vibrissa.Guards", include_str!("schema/guards.json")),
-            Self::Transitions => {
-                ("vibrissa.Transition", include_str!("../../../../docs/schema/transition.schema.json"))
-            }
+            Self::Transitions => ("vibrissa.Transition", include_str!("../../schema/transition.schema.json")),
         }
     }
 

@@ -14,7 +14,7 @@ use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 const NAME_HINT: &str = "results are filed under this name; the `description` takes any text";
 
 /// Reads a scenario. A list of diagnostics is never empty and has the order of the text.
-pub fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
+pub(crate) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
     let (tree, faults) = fault::parse(source, "scenario")?;
     let mut reader = Reader::new(source, files, faults);
     let scene = read_scene(&mut reader, &tree);
@@ -22,7 +22,7 @@ pub fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnos
 }
 
 /// The span that represents a text with the root `tree`. An empty text is reported with an example, and gives `None`.
-pub(crate) fn root_place(reader: &mut Reader<'_>, tree: &Placed<Node>, what: &str, hint: &'static str) -> Option<Span> {
+pub fn root_place(reader: &mut Reader<'_>, tree: &Placed<Node>, what: &str, hint: &'static str) -> Option<Span> {
     match &tree.value {
         Node::Mapping(entries) => Some(entries.first().map_or(tree.span, |first| first.key.span)),
         Node::Null => {

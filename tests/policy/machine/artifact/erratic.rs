@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use vibrissa::geometry::{Point2, Pose, Vector2};
+use vibrissa_runtime::geometry::{Point2, Pose, Vector2};
 use vibrissa_runtime::machine::{
     BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector,
 };

@@ -8,7 +8,7 @@ use super::policies::artifact;
 #[test]
 fn the_fixtures_of_the_runtime_are_the_compiled_policies() {
     for name in ["bang", "thesis", "vibrissa"] {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
         let path = root.join(format!("crates/runtime/fixtures/{name}.machine"));
         let text = std::fs::read_to_string(root.join(format!("policies/{name}.fsm"))).unwrap();
         let compiled = artifact(&format!("{name}.fsm"), &text).to_bytes().unwrap();

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use vibrissa::diagnostic::{Colour, Source, terminal};
-use vibrissa::policy::{compile_with_warnings, gather};
+use vibrissa_language::{compile_with_warnings, gather};
 use vibrissa_runtime::machine::Artifact;
+use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
 /// A policy that reads, computes and does a bit of everything.
 pub(crate) const EVERYTHING: &str = r#"
@@ -83,7 +83,7 @@ pub(crate) fn nested() -> Artifact {
 
 /// The artifacts of all policies of this project, of the examples of its language's page, of [`nested`], and of [`EVERYTHING`].
 pub(crate) fn all() -> Vec<Artifact> {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("policies");
+    let directory = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("policies");
     let files = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
     let files = files.filter(|path| path.extension().is_some_and(|extension| extension == "fsm"));
     let files = files.map(|path| artifact(&path.display().to_string(), &fs::read_to_string(&path).unwrap()));

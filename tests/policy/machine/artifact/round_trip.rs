@@ -1,6 +1,6 @@
 //! What goes in comes out.
 
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
 use vibrissa_runtime::machine::{Artifact, MAGIC};
 use vibrissa_runtime::units::Dimension;
 
@@ -27,7 +27,7 @@ fn the_same_text_gives_the_same_bytes_wherever_its_file_lies() {
 
 #[test]
 fn the_program_is_the_one_that_compiling_gives() {
-    let source = vibrissa::diagnostic::Source::new("everything.fsm", policies::EVERYTHING);
+    let source = vibrissa_text::diagnostic::Source::new("everything.fsm", policies::EVERYTHING);
     assert_eq!(compile(&source).unwrap(), policies::everything().program);
 }
 
@@ -45,7 +45,7 @@ fn the_source_map_leads_to_names_and_conditions() {
     let text = "machine m whisker w initial A\n\n  state A {\n when w.touching -> B  after 1 s -> A }\nstate B { stop }\n\
                 always when time > 9 s -> B";
     let artifact = policies::artifact("m.fsm", text);
-    let place = |position: vibrissa::diagnostic::Position| (position.line, position.column);
+    let place = |position: vibrissa_text::diagnostic::Position| (position.line, position.column);
     let states: Vec<_> = artifact.positions.states.iter().map(|state| place(state.name)).collect();
     assert_eq!(states, [(3, 9), (5, 7)]);
     assert_eq!(

@@ -1,9 +1,9 @@
 //! What the compiler says of machines that could go round within a tick.
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::compile;
+use vibrissa_language::compile;
 use vibrissa_runtime::machine::Failure;
+use vibrissa_text::diagnostic::Source;
 
 use super::oracle::{run_both, touches};
 use super::tree::{Features, Tree, trees};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use vibrissa::diagnostic::Source;
-use vibrissa::policy::{compile, compile_with_warnings, format};
+use vibrissa_language::{compile, compile_with_warnings, format};
 use vibrissa_runtime::machine::{Action, Artifact, Machine, Program};
+use vibrissa_text::diagnostic::Source;
 
 use super::interpreter::{Done, Interpreter};
 use super::tree::{Features, RATE, Tree, trees};

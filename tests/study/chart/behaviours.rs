@@ -30,7 +30,7 @@ fn every_behaviour_has_its_statechart_in_the_documentation_and_a_test_file() {
                 fs::write(&picture, &svg).unwrap();
             }
             let found = fs::read_to_string(&picture).unwrap_or_default();
-            assert!(found == svg, "{} is stale; run `INSTA_UPDATE=always cargo test --test policy`", picture.display());
+            assert!(found == svg, "{} is stale; run `INSTA_UPDATE=always cargo test --test study`", picture.display());
 
             let tests = root.join("policies/tests").join(path.file_name().unwrap());
             let text = fs::read_to_string(&tests).unwrap_or_default();

@@ -1,5 +1,6 @@
 //! The statechart of a policy, and its three renderings.
 
+mod behaviours;
 mod charts;
 mod machine;
 mod picture;
