@@ -11,7 +11,7 @@ use super::options::WorldOption;
 use super::output;
 use super::provenance::{provenance, simulator};
 use vibrissa_lab::load;
-use vibrissa_mujoco::Pruning;
+use vibrissa_lab::trial::pruning;
 use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa inspect explain scenarios/round-tunnel.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -52,7 +52,7 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
         Some(array) => (array.rig.clone(), array.physics(&scene.physics)),
         None => (scene.rig.clone(), scene.physics.clone()),
     };
-    let pruning = Pruning::new(&rig, &physics, &scene.solids, scene.start, &read, world);
+    let pruning = pruning(&scene, &rig, &physics, &read, world);
     if arguments.json {
         let mut provenance = provenance();
         provenance.add_scene(&scene.name);

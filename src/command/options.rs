@@ -6,7 +6,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Once;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vibrissa_runtime::machine::{ParameterValue, SetError};
 use vibrissa_runtime::units::{Quantity, parse_quantity};
 
@@ -58,37 +59,25 @@ impl Jobs {
     }
 }
 
-/// The worlds, as the command line names them.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum World {
-    /// Simulation by MuJoCo
-    Mujoco,
-    /// Quasi-static simulation: no inertia, several times faster
-    #[value(name = "quasistatic")]
-    QuasiStatic,
-}
-
-impl World {
-    fn kind(self) -> WorldKind {
-        match self {
-            Self::Mujoco => WorldKind::Mujoco,
-            Self::QuasiStatic => WorldKind::QuasiStatic,
-        }
-    }
+/// Reads the name of a simulator.
+fn simulator_names() -> impl TypedValueParser<Value = WorldKind> {
+    let help = |kind: WorldKind| PossibleValue::new(kind.name()).help(kind.about());
+    PossibleValuesParser::new(WorldKind::ALL.map(help))
+        .try_map(|name| WorldKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no simulator"))
 }
 
 /// The world of a run.
 #[derive(Debug, Args)]
 pub(super) struct WorldOption {
     /// Simulator of the run. Overrides the simulator of the scenario. Without either, `mujoco` is used if the program contains it
-    #[arg(long, value_enum)]
-    world: Option<World>,
+    #[arg(long, value_parser = simulator_names())]
+    world: Option<WorldKind>,
 }
 
 impl WorldOption {
     /// The simulator, if one is given.
     pub(super) fn kind(&self) -> Option<WorldKind> {
-        self.world.map(World::kind)
+        self.world
     }
 
     /// The world of a run of `scene`.
@@ -117,7 +106,7 @@ pub(super) struct WorldOptions {
 impl WorldOptions {
     /// The options as text, for the header of results.
     pub(super) fn text(&self) -> String {
-        let world = self.world.world.map(|world| world.kind().name());
+        let world = self.world.world.map(|world| world.name());
         let pruned = if self.prune.no_prune { ", not pruned" } else { "" };
         format!("{}{pruned}", world.unwrap_or("of the scene"))
     }

@@ -16,7 +16,7 @@ use vibrissa_lab::study::timing::TimingRow;
 use vibrissa_lab::study::worlds::WorldsRow;
 use vibrissa_lab::sweep::{Header, SweepLine, SweepSummary};
 use vibrissa_lab::tune::{Tuning, TuningHeader, TuningLine};
-use vibrissa_mujoco::Pruning;
+use vibrissa_world::world::Pruning;
 
 use super::calibrate::Printed;
 use super::calibrate_array::MeasuredDocument;

@@ -33,7 +33,7 @@ pub use mjcf::mjcf;
 pub(crate) use mjcf::{mjcf_within, part_names};
 #[cfg(feature = "sim")]
 pub use plugin::PluginError;
-pub use prune::{Decision, Pruning, Reach, Scope, Verdict, is_gentle, may_be_rigid};
+pub use prune::{Reach, Scope, decisions, is_gentle, may_be_rigid};
 #[cfg(any(feature = "render", feature = "viewer"))]
 pub use visual::Camera;
 #[cfg(feature = "render")]

@@ -1,10 +1,11 @@
 //! What is told of what is left out of a run.
 
 use vibrissa::diagnostic::Source;
-use vibrissa::mujoco::{Pruning, Verdict};
 use vibrissa::physics::Preset;
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind};
+use vibrissa::trial;
+use vibrissa::world::{Pruning, Verdict};
 
 use crate::snapshots::snapshots;
 
@@ -15,7 +16,7 @@ fn scene(name: &str) -> Scene {
 
 fn pruning(scene: &Scene, bound: &[&str], world: WorldKind) -> Pruning {
     let bound: Vec<String> = bound.iter().map(ToString::to_string).collect();
-    Pruning::new(&scene.rig, &scene.physics, &scene.solids, scene.start, &bound, world)
+    trial::pruning(scene, &scene.rig, &scene.physics, &bound, world)
 }
 
 #[test]

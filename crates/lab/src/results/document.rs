@@ -20,7 +20,7 @@ pub trait Document: Serialize {
     }
 }
 
-impl Document for vibrissa_mujoco::Pruning {
+impl Document for vibrissa_world::world::Pruning {
     const FORMAT: &'static str = "pruning";
 }
 

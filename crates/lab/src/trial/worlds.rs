@@ -1,16 +1,14 @@
-//! The worlds that this build has, and the versions of their simulators.
+//! The simulator of a run, and all that its figures depend on.
 
 use sha2::{Digest, Sha256};
+use vibrissa_mujoco::mjcf;
 use vibrissa_runtime::control::BindError;
 use vibrissa_runtime::rig::Rig;
-
-#[cfg(feature = "sim")]
-use vibrissa_mujoco::MujocoWorld;
-use vibrissa_mujoco::mjcf;
 use vibrissa_world::physics::Physics;
-use vibrissa_world::quasi_static::{QuasiStaticError, QuasiStaticWorld};
 use vibrissa_world::scene::{Scene, WorldKind, WorldSetup};
-use vibrissa_world::world::{Disturbed, World};
+use vibrissa_world::world::{Disturbed, Pruning, World};
+
+use super::simulators::{Simulator, SimulatorError, Surroundings};
 
 /// The error of a run that cannot begin.
 #[derive(Debug, thiserror::Error)]
@@ -21,16 +19,9 @@ pub enum ExecuteError {
     /// The run was stopped.
     #[error("the run was interrupted")]
     Interrupted,
-    /// The world could not be built.
-    #[cfg(feature = "sim")]
+    /// The simulator is not there, or it refuses the scene.
     #[error(transparent)]
-    Mujoco(#[from] vibrissa_mujoco::MujocoError),
-    /// The quasi-static world could not be built.
-    #[error(transparent)]
-    QuasiStatic(#[from] QuasiStaticError),
-    /// The program was built without the world.
-    #[error("this build has no world `{0}`; build the program with the feature `sim`, or use the world `quasistatic`")]
-    NoWorld(WorldKind),
+    Simulator(#[from] SimulatorError),
 }
 
 /// Builds a world of the true array of a scene. `seed` fixes the noise of sensors and poses.
@@ -56,33 +47,23 @@ fn simulator(
     world: WorldSetup,
     seed: u64,
 ) -> Result<Box<dyn World>, ExecuteError> {
-    let Scene { solids, start, .. } = scene;
-    match world.kind {
-        #[cfg(feature = "sim")]
-        WorldKind::Mujoco => {
-            let build = if world.prune { MujocoWorld::pruned } else { MujocoWorld::new };
-            Ok(Box::new(build(rig, physics, solids, *start, seed)?))
-        }
-        #[cfg(not(feature = "sim"))]
-        WorldKind::Mujoco => Err(ExecuteError::NoWorld(world.kind)),
-        WorldKind::QuasiStatic => Ok(Box::new(QuasiStaticWorld::new(rig, physics, solids, *start, seed)?)),
-    }
+    let surroundings = Surroundings { rig, physics, solids: &scene.solids, start: scene.start };
+    Ok((Simulator::of(world.kind).build)(&surroundings, world.prune, seed)?)
 }
 
-/// Checks that the world is available.
+/// Checks that the simulator is available.
 ///
 /// # Errors
-/// [`ExecuteError`] if this build does not have it, or if the library of its simulator cannot be loaded.
+/// [`ExecuteError`] if this build does not have it, or if its library cannot be loaded.
 pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
-    match kind {
-        #[cfg(feature = "sim")]
-        WorldKind::Mujoco => {
-            vibrissa_mujoco::engine_version().map(|_| ()).map_err(|cause| ExecuteError::Mujoco(cause.into()))
-        }
-        #[cfg(not(feature = "sim"))]
-        WorldKind::Mujoco => Err(ExecuteError::NoWorld(kind)),
-        WorldKind::QuasiStatic => Ok(()),
-    }
+    Ok((Simulator::of(kind).check)()?)
+}
+
+/// What a run of a rig in a scene omits, under a policy that binds the whiskers with the names `bound`.
+#[must_use]
+pub fn pruning(scene: &Scene, rig: &Rig, physics: &Physics, bound: &[String], kind: WorldKind) -> Pruning {
+    let surroundings = Surroundings { rig, physics, solids: &scene.solids, start: scene.start };
+    Pruning::new((Simulator::of(kind).decisions)(&surroundings), rig, bound)
 }
 
 /// The versions of this program and of its simulator.
@@ -91,18 +72,16 @@ pub fn engine_version() -> String {
     format!("{} with {}", env!("CARGO_PKG_VERSION"), mujoco_version())
 }
 
-/// The version of a simulator. That of the quasi-static one is this program's.
+/// The version of the simulator with this name. A simulator without a library has that of this program.
 #[must_use]
 pub fn simulator_version(name: &str) -> &'static str {
-    if name == WorldKind::QuasiStatic.name() { env!("CARGO_PKG_VERSION") } else { mujoco_version() }
+    let known = WorldKind::ALL.into_iter().find(|kind| kind.name() == name);
+    known.map_or(env!("CARGO_PKG_VERSION"), |kind| (Simulator::of(kind).version)().unwrap_or(env!("CARGO_PKG_VERSION")))
 }
 
 /// The version of MuJoCo, if this build has it and its library can be loaded.
 fn mujoco_version() -> &'static str {
-    #[cfg(feature = "sim")]
-    return vibrissa_mujoco::engine_version().unwrap_or("none");
-    #[cfg(not(feature = "sim"))]
-    return "none";
+    (Simulator::of(WorldKind::Mujoco).version)().unwrap_or_default()
 }
 
 /// The MuJoCo model of the true array of a scene.
@@ -119,10 +98,7 @@ pub fn model(scene: &Scene) -> String {
 /// of the simulator, the model, and the pruning.
 #[must_use]
 pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
-    let engine = match world.kind {
-        WorldKind::Mujoco => mujoco_version(),
-        WorldKind::QuasiStatic => world.kind.name(),
-    };
+    let engine = (Simulator::of(world.kind).version)().unwrap_or(world.kind.name());
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     hash.update([0]);

@@ -4,6 +4,7 @@ mod active_set;
 mod base_path;
 mod bordered_tridiagonal;
 mod contact;
+mod decisions;
 mod equilibrium;
 mod first_order_lag;
 mod footprint;
@@ -14,4 +15,5 @@ mod surface;
 mod whisker;
 mod world;
 
+pub use decisions::decisions;
 pub use world::{QuasiStaticError, QuasiStaticWorld};

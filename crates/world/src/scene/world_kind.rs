@@ -23,6 +23,15 @@ impl WorldKind {
             Self::QuasiStatic => "quasistatic",
         }
     }
+
+    /// A line about the simulator, for help.
+    #[must_use]
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Mujoco => "Simulation by MuJoCo",
+            Self::QuasiStatic => "Quasi-static simulation: no inertia, several times faster",
+        }
+    }
 }
 
 impl Default for WorldKind {

@@ -4,6 +4,7 @@ mod disturbed;
 mod fault;
 mod out_of_plane;
 mod posture;
+mod pruning;
 mod sensors;
 mod true_tips;
 
@@ -12,6 +13,7 @@ pub use fault::Fault;
 pub use out_of_plane::OutOfPlane;
 pub use posture::Posture;
 pub use posture::raised;
+pub use pruning::{Decision, Pruning, Verdict};
 pub use sensors::{Sensors, whole};
 pub use true_tips::TrueTips;
 

@@ -1,80 +1,17 @@
-//! The report of what a run omits, with reasons.
-
-use std::fmt;
-
-use serde::Serialize;
+//! What a run in MuJoCo omits, with reasons.
 
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_world::geometry::{Pose, unit};
 use vibrissa_world::physics::Physics;
-use vibrissa_world::scene::WorldKind;
 use vibrissa_world::solid::Solid;
+use vibrissa_world::world::{Decision, Verdict};
 
 use super::reach::{Reach, may_be_rigid};
 
-/// The treatment of a part of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// It is omitted. The run is bit-identical without it.
-    LeftOut,
-    /// It is kept.
-    Kept,
-    /// A physics setting reduces it. The run changes slightly.
-    Setting,
-}
-
-/// A decision about a part of a run.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Decision {
-    /// The treatment.
-    pub verdict: Verdict,
-    /// The subject of the decision.
-    pub subject: String,
-    /// The saving; `None` for a part that is kept.
-    pub saves: Option<String>,
-    /// The reason.
-    pub why: String,
-}
-
-/// All decisions about a run. They follow from the scenario and from the values that the policy reads.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Pruning {
-    /// The decisions.
-    pub decisions: Vec<Decision>,
-}
-
-impl Pruning {
-    /// Decides for a rig at `start` among `solids` in a simulator, with a policy that binds whiskers with these names.
-    /// Counts refer to the start.
-    #[must_use]
-    pub fn new(
-        rig: &Rig,
-        physics: &Physics,
-        solids: &[Solid],
-        start: Pose,
-        bound: &[String],
-        world: WorldKind,
-    ) -> Self {
-        let mut decisions = Vec::new();
-        match world {
-            WorldKind::Mujoco => in_mujoco(&mut decisions, rig, physics, solids, start),
-            WorldKind::QuasiStatic => decisions.push(Decision {
-                verdict: Verdict::LeftOut,
-                subject: "pieces of outlines far from all whiskers".to_owned(),
-                saves: Some("distances to these pieces; a bounding-box tree returns the near ones".to_owned()),
-                why: "a link touches only pieces within its own length".to_owned(),
-            }),
-        }
-        whiskers(&mut decisions, rig, bound);
-        Self { decisions }
-    }
-}
-
-fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) {
+/// What the simulator omits for a rig at `start` among `solids`. Counts refer to the start.
+#[must_use]
+pub fn decisions(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> Vec<Decision> {
+    let mut decisions = Vec::new();
     let reach = Reach::new(rig, solids);
     let parts = solids.iter().flat_map(Solid::parts).count();
     let near = if reach.is_windowed() { reach.parts_about(start.position).len() } else { parts };
@@ -135,6 +72,7 @@ fn in_mujoco(decisions: &mut Vec<Decision>, rig: &Rig, physics: &Physics, solids
                 .to_owned(),
         });
     }
+    decisions
 }
 
 /// The number of pairs of links and parts that are near each other while a whisker is undeflected.
@@ -142,41 +80,4 @@ fn near_straight(reach: &Reach, whisker: &Whisker, body: &Pose) -> usize {
     let (base, direction) = (body.point_to_world(whisker.base_body), body.heading + whisker.direction_body);
     let start = |link: usize| base + link as f64 * whisker.shaft.link_length() * unit(direction);
     reach.near_links(whisker, (0..whisker.shaft.links).map(|link| (start(link), direction)), 0.0).count()
-}
-
-fn whiskers(decisions: &mut Vec<Decision>, rig: &Rig, bound: &[String]) {
-    for whisker in rig.whiskers.iter().filter(|whisker| !bound.contains(&whisker.name)) {
-        decisions.push(Decision {
-            verdict: Verdict::LeftOut,
-            subject: format!("perception of `{}`", whisker.name),
-            saves: Some("its filter, contact estimator and contour in every tick".to_owned()),
-            why: "the policy does not bind it".to_owned(),
-        });
-        decisions.push(Decision {
-            verdict: Verdict::Kept,
-            subject: format!("the whisker `{}`", whisker.name),
-            saves: None,
-            why: "the policy does not bind it, but its contact forces act on the platform, and its penetration depth is limited"
-                .to_owned(),
-        });
-    }
-}
-
-impl fmt::Display for Pruning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, Decision { verdict, subject, saves, why }) in self.decisions.iter().enumerate() {
-            let verdict = match verdict {
-                Verdict::LeftOut => "left out",
-                Verdict::Kept => "kept",
-                Verdict::Setting => "setting",
-            };
-            let line = if index > 0 { "\n" } else { "" };
-            write!(f, "{line}{verdict:<10}{subject}")?;
-            if let Some(saves) = saves {
-                write!(f, "\n          saves: {saves}")?;
-            }
-            write!(f, "\n          why: {why}")?;
-        }
-        Ok(())
-    }
 }
