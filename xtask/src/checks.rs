@@ -11,6 +11,7 @@ use crate::book::{self, BookError};
 use crate::cargo::{NotStarted, cargo, target_directory};
 use crate::checkout::Checkout;
 use crate::comments::{self, CommentsError};
+use crate::commits::{self, CommitsError};
 use crate::links::{self, LinkError};
 use crate::prose::{self, ProseError};
 use crate::python::{self, PythonError};
@@ -29,6 +30,7 @@ enum Work {
     Cargo(CargoRun),
     CoreIsFreeOfMujoco,
     Setup,
+    Commits,
     Runtime,
     Aarch64,
     Prose,
@@ -71,6 +73,8 @@ pub(crate) enum CheckError {
     #[error(transparent)]
     Comments(#[from] CommentsError),
     #[error(transparent)]
+    Commits(#[from] CommitsError),
+    #[error(transparent)]
     Links(#[from] LinkError),
     #[error(transparent)]
     Stale(#[from] StaleError),
@@ -94,10 +98,11 @@ const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 /// long for each change, so they are among the nightly ones (.github/workflows/nightly.yml).
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation.
-const CHECKS: [Check; 20] = [
+const CHECKS: [Check; 21] = [
     check("formatting", &["fmt", "--all", "--check"]),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
+    Check { title: "subjects of commits", work: Work::Commits },
     Check { title: "published figures", work: Work::Results },
     Check { title: "dependencies and targets of the runtime", work: Work::Runtime },
     Check { title: "no MuJoCo among the core's dependencies", work: Work::CoreIsFreeOfMujoco },
@@ -207,6 +212,7 @@ impl Check {
             Work::Cargo(run) => run.succeed(self.title, root),
             Work::CoreIsFreeOfMujoco => core_is_free_of_mujoco(self.title, root),
             Work::Setup => Ok(setup::setup(root, &Options::default())?),
+            Work::Commits => Ok(commits::check(root)?),
             Work::Runtime => Ok(runtime::check(root)?),
             Work::Aarch64 => Ok(runtime::test_on_aarch64(root, SAME_CASES)?),
             Work::Prose => {

@@ -9,6 +9,7 @@ mod cargo;
 mod checkout;
 mod checks;
 mod comments;
+mod commits;
 mod cross;
 mod demo;
 mod fuzz;
