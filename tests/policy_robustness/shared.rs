@@ -96,7 +96,7 @@ pub(crate) fn policy(random: &mut Random) -> String {
         }
     }
     let nested = nested(random, &statements);
-    text + &items + &format!("state A {{ {nested} when r0.touching -> A after 1 s -> Failure(\"late\") }}") + &files
+    text + &items + &format!("state A {{ {nested} after 1 s -> Failure(\"late\") }}") + &files
 }
 
 /// Adds parts of a kind, and returns the number of the last one.
