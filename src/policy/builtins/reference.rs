@@ -1,4 +1,4 @@
-//! The reference page, generated from the tables of the compiler.
+//! The reference page, generated from the tables of the compiler and of the words for editors.
 
 use std::fmt::Write;
 
@@ -6,6 +6,7 @@ use crate::catalogue::{self, Parameter};
 use crate::diagnostic::Source;
 use crate::policy::ast::{Argument, Behaviour, Content, Name};
 use crate::policy::description::{description, whole_description};
+use crate::policy::index::reference::words;
 use crate::policy::parse::parse;
 use crate::policy::standard::{MODULES, ROOT};
 use crate::policy::types::{DIMENSIONS, Type};
@@ -31,7 +32,7 @@ fn page() -> String {
     let mut page = "\
 # Reference of the policy language
 
-The values and functions of policies, with types and units. [Language](language.md) explains how to use them.
+The types, members, functions and words of policies. [The tour of the language](language.md) explains how to use them.
 
 A test generates this page from the tables of the compiler. To change it, change the tables, and run
 `INSTA_UPDATE=always cargo test --lib reference`.
@@ -107,6 +108,7 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
     }
     families(&mut page);
     standard(&mut page);
+    words(&mut page);
     page
 }
 
