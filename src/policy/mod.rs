@@ -8,7 +8,7 @@
 //! - `optimise` shortens the code.
 //! - `explain` relates the guards of a running program to their texts.
 //! - `format` formats texts. `description` reads comments of items. `index` answers questions of editors.
-//! - `builtins` has the tables of members and functions. `docs/language.md` describes the language for users.
+//! - `builtins` has the tables of members and functions. `docs/language.md` introduces the language to users.
 
 mod analysis;
 mod artifact;
