@@ -2,7 +2,7 @@
 //!
 //!     cargo run --no-default-features --example add_metric
 //!
-//! The page `docs/howto/metric.md` explains how to make a metric a part of the score.
+//! The page `docs/howto/extend.md` explains how to make a metric a part of the score.
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;

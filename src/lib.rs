@@ -95,13 +95,14 @@
 //!
 //! | page | content |
 //! |---|---|
-//! | `docs/language.md` | reference of the policy language |
+//! | `docs/language.md` | tour of the policy language |
+//! | `docs/language-semantics.md`, `docs/reference.md` | its semantics, and its words, types, members and functions |
 //! | `docs/scenarios.md` | reference of the scenario format |
 //! | `docs/metrics.md` | definitions of all figures |
 //! | `docs/worlds.md` | the simulators and their differences |
 //! | `docs/rig.md` | platform, whiskers and sensors, with frames and signs |
 //! | `docs/glossary.md` | terms of the field |
-//! | `docs/howto` | how to add a contact estimator, a metric, a scene family or a construct of the language |
+//! | `docs/howto/extend.md` | how to add a contact estimator, a metric, a scene family or a construct of the language |
 //! | `ARCHITECTURE.md` | the structure of the code, for contributors |
 
 mod command;

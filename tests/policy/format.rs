@@ -105,7 +105,15 @@ fn policies_are_formatted() {
 
 #[test]
 fn the_examples_of_the_documentation_are_formatted() {
-    for page in ["README.md", "docs/language.md", "docs/tutorial.md"] {
+    let pages = [
+        "README.md",
+        "docs/language.md",
+        "docs/language-semantics.md",
+        "docs/perception.md",
+        "docs/metrics.md",
+        "docs/tutorial.md",
+    ];
+    for page in pages {
         let page = std::fs::read_to_string(Path::new(ROOT).join(page)).unwrap();
         for example in page.split("```fsm\n").skip(1).map(|behind| behind.split("```").next().unwrap()) {
             // What is no machine by itself is some of a machine's items.

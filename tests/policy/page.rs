@@ -1,14 +1,20 @@
-//! The examples of the language's page are policies.
+//! The examples of the pages about the language are policies.
 
 use vibrissa_language::compile;
 use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
-const PAGE: &str = include_str!("../../docs/language.md");
+/// The pages with examples in the language, one after the other.
+pub(crate) const PAGES: &str = concat!(
+    include_str!("../../docs/language.md"),
+    include_str!("../../docs/language-semantics.md"),
+    include_str!("../../docs/perception.md"),
+    include_str!("../../docs/metrics.md"),
+);
 
 #[test]
-fn every_example_of_the_page_compiles() {
+fn every_example_of_the_pages_compiles() {
     let examples: Vec<&str> =
-        PAGE.split("```fsm\n").skip(1).map(|behind| behind.split("```").next().unwrap()).collect();
+        PAGES.split("```fsm\n").skip(1).map(|behind| behind.split("```").next().unwrap()).collect();
     assert!(examples.len() >= 3);
     for example in examples {
         // What is no machine by itself is some of a machine's items.

@@ -1,5 +1,5 @@
-//! The prose of the documentation, measured: words per sentence, semicolons in tables, terms that are not the field's, and
-//! measured figures outside of the pages that a command makes.
+//! The prose of the documentation, measured: words per sentence, words of the book, semicolons in tables, terms that are not the
+//! field's, and measured figures outside of the pages that a command makes.
 
 use std::fs;
 use std::io;
@@ -14,8 +14,13 @@ const MOST_WORDS: f64 = 22.0;
 const FIRST: [&str; 2] = ["README.md", "ARCHITECTURE.md"];
 /// The folders with pages, each without the folders in it. Those of `docs/results` are generated.
 const FOLDERS: [&str; 5] = ["", "docs", "docs/decisions", "docs/howto", "editors"];
-/// The folders in which tables must not have more than [`MOST_FIGURES`] measured figures: `cargo x results` keeps them in pages of their own.
-const WITHOUT_FIGURES: [&str; 2] = ["docs/", "docs/howto/"];
+/// The folders of the book's hand-written pages. Their tables must not have more than [`MOST_FIGURES`] measured figures, because
+/// `cargo x results` keeps these in pages of their own, and they have at most [`MOST_WORDS_TOGETHER`] words.
+const HAND_WRITTEN: [&str; 2] = ["docs/", "docs/howto/"];
+/// Most words of the hand-written pages together, counted as `wc -w` does. Beyond them, pages repeat each other.
+const MOST_WORDS_TOGETHER: usize = 55_000;
+/// Pages in these folders that are generated, or that only list the others.
+const NOT_COUNTED: [&str; 2] = ["docs/reference.md", "docs/SUMMARY.md"];
 /// Most cells of a table that are nothing but a decimal number. A few may be constants of a method.
 const MOST_FIGURES: usize = 6;
 /// A page that is not measured, because it grows.
@@ -76,13 +81,37 @@ pub(crate) enum ProseError {
 /// Measures every page of the checkout at `root`.
 pub(crate) fn check(root: &Path) -> Result<(), ProseError> {
     let mut findings = Vec::new();
+    let mut words = 0;
     for path in pages(root)? {
         let text =
             fs::read_to_string(root.join(&path)).map_err(|cause| ProseError::Read { path: path.clone(), cause })?;
         let name = path.display().to_string();
         findings.extend(Page::new(&text).findings(&name));
+        words += counted_words(&name, &text);
     }
+    findings.extend(too_long(words));
     if findings.is_empty() { Ok(()) } else { Err(ProseError::Findings(findings.join("\n  "))) }
+}
+
+/// The number of words of a page that count for [`MOST_WORDS_TOGETHER`].
+fn counted_words(name: &str, text: &str) -> usize {
+    let is_counted = HAND_WRITTEN.contains(&folder(name)) && !NOT_COUNTED.contains(&name);
+    if is_counted { text.split_whitespace().count() } else { 0 }
+}
+
+/// What is wrong with this number of words of all hand-written pages.
+fn too_long(words: usize) -> Option<String> {
+    (words > MOST_WORDS_TOGETHER).then(|| {
+        format!(
+            "docs: the hand-written pages have {words} words, more than {MOST_WORDS_TOGETHER}; \
+             state each fact on one page, and link to it"
+        )
+    })
+}
+
+/// The folder of a page, with the slash behind it.
+fn folder(name: &str) -> &str {
+    name.rfind('/').map_or("", |end| &name[..=end])
 }
 
 /// The pages, by their paths from the root, in order.
@@ -179,8 +208,7 @@ impl Page {
         if let Some(words) = self.words_per_sentence().filter(|words| *words > most) {
             findings.push(format!("{name}: {words:.1} words per sentence in the mean, more than {most}"));
         }
-        let folder = name.rfind('/').map_or("", |end| &name[..=end]);
-        if WITHOUT_FIGURES.contains(&folder) {
+        if HAND_WRITTEN.contains(&folder(name)) {
             for (line, count) in self.figures().into_iter().filter(|&(_, count)| count > MOST_FIGURES) {
                 findings.push(format!(
                     "{name}:{line}: a table with {count} measured figures; let `cargo x results` make it, in docs/results"
@@ -299,6 +327,19 @@ mod tests {
         assert!(found("docs/bench.md", &format!("{small}{small}")).is_empty(), "two tables are not one");
         let keys = "| `step` | `0.5556 ms` | from 0.1 ms to 33.3 ms | 10 | 0.5 of the length |\n".repeat(9);
         assert!(found("docs/scenarios.md", &keys).is_empty(), "defaults and limits are no measurements");
+    }
+
+    #[test]
+    fn the_hand_written_pages_together_have_a_bound() {
+        let counted = |name: &str| counted_words(name, "# Two\n\n| three | words |\n");
+        assert_eq!([counted("docs/bench.md"), counted("docs/howto/extend.md")], [7, 7]);
+        for name in
+            ["README.md", "docs/reference.md", "docs/SUMMARY.md", "docs/decisions/0001.md", "docs/results/bench.md"]
+        {
+            assert_eq!(counted(name), 0, "{name}");
+        }
+        assert_eq!(too_long(MOST_WORDS_TOGETHER), None);
+        assert!(too_long(MOST_WORDS_TOGETHER + 1).is_some_and(|finding| finding.contains("55001 words")));
     }
 
     #[test]

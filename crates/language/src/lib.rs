@@ -9,7 +9,7 @@
 //! - `explain` relates the guards of a running program to their texts.
 //! - `format` formats texts. `description` reads comments of items. `index` answers questions of editors.
 //! - `server` is the language server.
-//! - `builtins` has the tables of members and functions. `docs/language.md` describes the language for users.
+//! - `builtins` has the tables of members and functions. `docs/language.md` introduces the language to users.
 
 // The code that pest writes for a grammar without `std` names it.
 extern crate alloc;

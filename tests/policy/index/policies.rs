@@ -6,6 +6,8 @@ use vibrissa_language::check;
 use vibrissa_language::index::{Index, gather};
 use vibrissa_text::diagnostic::Source;
 
+use crate::page::PAGES;
+
 pub(crate) const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 pub(crate) const THESIS: &str = include_str!("../../fixtures/editor/thesis.fsm");
 pub(crate) const SWIPE: &str = include_str!("../../fixtures/editor/swipe.fsm");
@@ -36,15 +38,14 @@ pub(crate) fn policies() -> Vec<(String, String)> {
     let texts = files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|is| is == "fsm"));
     let mut texts: Vec<(String, String)> =
         texts.map(|path| (path.display().to_string(), std::fs::read_to_string(path).unwrap())).collect();
-    let page = include_str!("../../../docs/language.md");
-    for (number, example) in page.split("```fsm\n").skip(1).enumerate() {
+    for (number, example) in PAGES.split("```fsm\n").skip(1).enumerate() {
         let example = example.split("```").next().unwrap();
         let text = if example.starts_with("machine") {
             example.to_owned()
         } else {
             format!("machine example {example}\ninitial Still\nstate Still {{ stop }}\n")
         };
-        texts.push((format!("example {number} of the page"), text));
+        texts.push((format!("example {number} of the pages"), text));
     }
     texts.push(("with another file".to_owned(), USING.to_owned()));
     texts.push(("marks".to_owned(), MARKING.to_owned()));

@@ -1,4 +1,4 @@
-//! Machines, interpreted as docs/language.md explains them.
+//! Machines, interpreted as docs/language-semantics.md explains them.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;

@@ -1,9 +1,10 @@
-//! The reference page, generated from the tables of the compiler.
+//! The reference page, generated from the tables of the compiler and of the words for editors.
 
 use std::fmt::Write;
 
 use crate::ast::{Argument, Behaviour, Content, Name};
 use crate::description::{description, whole_description};
+use crate::index::reference::words;
 use crate::parse::parse;
 use crate::standard::{MODULES, ROOT};
 use crate::types::{DIMENSIONS, Type};
@@ -31,7 +32,7 @@ fn page() -> String {
     let mut page = "\
 # Reference of the policy language
 
-The values and functions of policies, with types and units. [Language](language.md) explains how to use them.
+The types, members, functions and words of policies. [The tour of the language](language.md) explains how to use them.
 
 A test generates this page from the tables of the compiler. To change it, change the tables, and run
 `INSTA_UPDATE=always cargo test --lib reference`.
@@ -107,6 +108,7 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
     }
     families(&mut page);
     standard(&mut page);
+    words(&mut page);
     page
 }
 

@@ -19,7 +19,7 @@ use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 use super::grammar;
 use super::recover::faults;
 
-/// Formats the text of a policy by the rules of `docs/language.md`.
+/// Formats the text of a policy by the rules of `docs/language-semantics.md`.
 ///
 /// # Errors
 /// The syntax errors that prevent parsing, or the report that the formatted text would be too long. Names, types and

@@ -14,6 +14,8 @@ mod import;
 mod keyword;
 mod operands;
 mod origin;
+#[cfg(test)]
+pub(super) mod reference;
 mod rename;
 mod resolve;
 mod state;

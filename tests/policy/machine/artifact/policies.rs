@@ -8,6 +8,8 @@ use vibrissa_language::{compile_with_warnings, gather};
 use vibrissa_runtime::machine::Artifact;
 use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
+use crate::page::PAGES;
+
 /// A policy that reads, computes and does a bit of everything.
 pub(crate) const EVERYTHING: &str = r#"
 machine everything
@@ -81,13 +83,13 @@ pub(crate) fn nested() -> Artifact {
     artifact("nested.fsm", include_str!("../../../fixtures/charts/nested.fsm"))
 }
 
-/// The artifacts of all policies of this project, of the examples of its language's page, of [`nested`], and of [`EVERYTHING`].
+/// The artifacts of all policies of this project, of the examples of its language's pages, of [`nested`], and of [`EVERYTHING`].
 pub(crate) fn all() -> Vec<Artifact> {
     let directory = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("policies");
     let files = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
     let files = files.filter(|path| path.extension().is_some_and(|extension| extension == "fsm"));
     let files = files.map(|path| artifact(&path.display().to_string(), &fs::read_to_string(&path).unwrap()));
-    let examples = include_str!("../../../../docs/language.md").split("```fsm\n").skip(1).map(|behind| {
+    let examples = PAGES.split("```fsm\n").skip(1).map(|behind| {
         let example = behind.split("```").next().unwrap();
         if example.starts_with("machine") {
             return artifact("language.md", example);
