@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::checks::Chosen;
 use crate::nightly;
 use crate::pieces;
 use crate::results::Selection;
@@ -21,6 +22,7 @@ Commands:
   demo    set up, build in release, run the disk scenario and print where its report is
   test    set up, then every test and every lint
             --from K       begin with check number K, after the cause of a failure is corrected
+            --part PART    `lints`, which are all before the tests, or `tests`, which are the rest
   prose   measure the sentences and terms of the documentation
   links   follow the links between the pages of the documentation
   book    build the documentation as a book in target/book
@@ -48,9 +50,9 @@ pub(crate) enum Command {
     Help,
     Setup(Options),
     Demo,
-    /// All checks from this one, counted from 1.
+    /// Checks.
     Test {
-        from: usize,
+        chosen: Chosen,
     },
     Prose,
     Links,
@@ -82,6 +84,8 @@ pub(crate) enum ArgumentError {
     NoProgram,
     #[error("`--from` needs the number of a check, such as `cargo x test --from 12`")]
     NoCheck,
+    #[error("`--part` is `lints` or `tests`")]
+    NoPart,
     #[error("`--count` needs how many scenes of each family to run")]
     NoScenes,
     #[error("`fuzz` needs how many policies to try, such as `cargo x fuzz 100000`")]
@@ -147,12 +151,18 @@ fn parse_setup(mut arguments: impl Iterator<Item = OsString>) -> Result<Command,
 
 fn parse_test(arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
     let mut arguments = arguments.peekable();
-    let mut from = 1;
+    let mut chosen = Chosen::From(1);
     if arguments.next_if(|argument| argument == "--from").is_some() {
         let number = arguments.next().and_then(|number| number.to_str()?.parse().ok());
-        from = number.filter(|&number| number > 0).ok_or(ArgumentError::NoCheck)?;
+        chosen = number.filter(|&number| number > 0).map(Chosen::From).ok_or(ArgumentError::NoCheck)?;
+    } else if arguments.next_if(|argument| argument == "--part").is_some() {
+        chosen = match arguments.next().as_ref().and_then(|part| part.to_str()) {
+            Some("lints") => Chosen::Lints,
+            Some("tests") => Chosen::Tests,
+            _ => return Err(ArgumentError::NoPart),
+        };
     }
-    end("test", arguments, Command::Test { from })
+    end("test", arguments, Command::Test { chosen })
 }
 
 fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
@@ -279,8 +289,12 @@ mod tests {
 
     #[test]
     fn the_checks_begin_with_the_first_or_with_the_given_one() {
-        assert_eq!(parse(&["test"]), Ok(Command::Test { from: 1 }));
-        assert_eq!(parse(&["test", "--from", "7"]), Ok(Command::Test { from: 7 }));
+        let test = |chosen| Ok(Command::Test { chosen });
+        assert_eq!(parse(&["test"]), test(Chosen::From(1)));
+        assert_eq!(parse(&["test", "--from", "7"]), test(Chosen::From(7)));
+        assert_eq!(parse(&["test", "--part", "lints"]), test(Chosen::Lints));
+        assert_eq!(parse(&["test", "--part", "tests"]), test(Chosen::Tests));
+        assert_eq!(parse(&["test", "--part", "all"]), Err(ArgumentError::NoPart));
         for arguments in [&["test", "--from"][..], &["test", "--from", "0"], &["test", "--from", "lints"]] {
             assert_eq!(parse(arguments), Err(ArgumentError::NoCheck));
         }

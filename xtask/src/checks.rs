@@ -184,16 +184,36 @@ const fn check_in(
     Check { title, work: Work::Cargo(CargoRun { environment, arguments }) }
 }
 
-/// Runs the checks in the checkout at `root` until one fails, and sums up. The first one has the number `from`, counted
-/// from 1.
-pub(crate) fn run(root: &Path, from: usize) -> Result<(), CheckError> {
-    let checks = CHECKS.get(from.saturating_sub(1)..).filter(|checks| !checks.is_empty());
-    let checks = checks.ok_or(CheckError::NoSuchCheck { number: from })?;
+/// Which checks run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// All from this one, counted from 1.
+    From(usize),
+    /// All before the tests, so that a machine can do them beside another one with the rest.
+    Lints,
+    /// The set-up, the tests, and what is made of their build.
+    Tests,
+}
+
+/// Runs the checks in the checkout at `root` until one fails, and sums up.
+pub(crate) fn run(root: &Path, chosen: Chosen) -> Result<(), CheckError> {
+    let tests = CHECKS.iter().position(|check| check.title == "tests").unwrap_or_default();
+    let checks: Vec<(usize, &Check)> = (1..)
+        .zip(&CHECKS)
+        .filter(|&(number, check)| match chosen {
+            Chosen::From(from) => number >= from,
+            Chosen::Lints => number <= tests,
+            Chosen::Tests => number > tests || matches!(check.work, Work::Setup),
+        })
+        .collect();
+    if let (Chosen::From(number), true) = (chosen, checks.is_empty()) {
+        return Err(CheckError::NoSuchCheck { number });
+    }
     let before = Checkout::look(root);
     let start = Instant::now();
     let mut times = Vec::with_capacity(checks.len());
     let mut result = Ok(());
-    for (number, check) in (from..).zip(checks) {
+    for &(number, check) in &checks {
         println!("\n[{number}/{}] {}", CHECKS.len(), check.title);
         let check_start = Instant::now();
         result = check.run(root, before.as_ref());
@@ -202,7 +222,10 @@ pub(crate) fn run(root: &Path, from: usize) -> Result<(), CheckError> {
             break;
         }
     }
-    println!("\n{}", summary(checks, &times, result.is_ok(), start.elapsed()));
+    println!(
+        "\n{}",
+        summary(&checks.iter().map(|&(_, check)| check).collect::<Vec<_>>(), &times, result.is_ok(), start.elapsed())
+    );
     result
 }
 
@@ -326,7 +349,7 @@ fn checkout_is_untouched(root: &Path, before: Option<&Checkout>) -> Result<(), C
 }
 
 /// A line for each check that ran, and one for all.
-fn summary(checks: &[Check], times: &[Duration], passed: bool, total: Duration) -> String {
+fn summary(checks: &[&Check], times: &[Duration], passed: bool, total: Duration) -> String {
     let last = times.len().saturating_sub(1);
     let mut lines: Vec<_> = checks
         .iter()
@@ -368,7 +391,7 @@ mod tests {
     #[test]
     fn the_summary_says_which_check_failed_and_how_many_did_not_run() {
         let second = Duration::from_secs(1);
-        let text = summary(&CHECKS, &[second, second], false, second * 2);
+        let text = summary(&CHECKS.iter().collect::<Vec<_>>(), &[second, second], false, second * 2);
         let lines: Vec<_> = text.lines().map(str::trim).collect();
         assert_eq!(lines.len(), 3);
         assert!(lines[0].starts_with("ok") && lines[1].starts_with("FAILED"), "{text}");

@@ -60,7 +60,7 @@ fn main() -> ExitCode {
         }
         Command::Setup(options) => status(setup::setup(&root, &options)),
         Command::Demo => demo::demo(&root).unwrap_or_else(|error| status(Err(error))),
-        Command::Test { from } => status(checks::run(&root, from)),
+        Command::Test { chosen } => status(checks::run(&root, chosen)),
         Command::Prose => prose(&root),
         Command::Links => status(links::check(&root)),
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
