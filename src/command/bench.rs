@@ -127,7 +127,7 @@ pub(super) fn bench_trials(
         }
     }
     let scenes = || trials.iter().map(|(_, trial)| &trial.scene);
-    mismatch.check_seed(scenes()).map_err(LoadError::from)?;
+    mismatch.check_effect(scenes()).map_err(LoadError::from)?;
     check_noise_seed(arguments.seed, scenes()).map_err(LoadError::from)?;
     Ok((trials, mismatch))
 }

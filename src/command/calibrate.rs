@@ -19,7 +19,7 @@ use super::provenance::provenance;
 use super::trials::make_directory;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use vibrissa_lab::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
-use vibrissa_lab::load::{self, LoadError, SeedWithoutEffect};
+use vibrissa_lab::load::{self, LoadError, WithoutEffect};
 use vibrissa_lab::report::{held_out_table, profile_picture};
 use vibrissa_lab::results::Document;
 use vibrissa_text::file::{CommandFiles, Output, OutputError};
@@ -106,7 +106,7 @@ pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure>
         return calibrate_array(arguments);
     }
     if arguments.seed.is_some() && !arguments.noise {
-        return Err(LoadError::from(SeedWithoutEffect::Noise).into());
+        return Err(LoadError::from(WithoutEffect::Noise).into());
     }
     if let Some(path) = &arguments.touches {
         return calibrate_touches(path, arguments);

@@ -99,7 +99,7 @@ pub(super) fn calibrate_array(arguments: &CalibrateArguments) -> Result<Exit, Fa
     let mismatch = arguments.mismatch.load(&mut files)?;
     let mut first = scene.clone();
     mismatch.apply(&mut first, &mut Sha256::default(), 0).map_err(Failure::mismatch(&path))?;
-    mismatch.check_seed(std::iter::once(&first)).map_err(LoadError::from)?;
+    mismatch.check_effect(std::iter::once(&first)).map_err(LoadError::from)?;
     check_noise_seed(arguments.seed, std::iter::once(&first)).map_err(LoadError::from)?;
     let report = Report::new(arguments.out.as_deref(), &scene.rig, &mut files)?;
     let array = |number: &u64| -> Result<(Option<u64>, ArrayCalibration), Failure> {

@@ -25,7 +25,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa check policies/thesis.fsm --deny-war
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CheckArguments {
-    /// Policy files or compiled machines
+    /// Policy files, compiled machines or names of built-in policies such as `thesis`
     #[arg(value_name = "POLICY", required = true)]
     policies: Vec<PathBuf>,
     /// Treat warnings as errors: exit status 2

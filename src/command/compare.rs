@@ -28,7 +28,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa compare policies/thesis.fsm policies
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CompareArguments {
-    /// Two or more policies, and scenarios (.yaml). The first policy is compared with each other one. The default scenarios are those of
+    /// Two or more policies, and scenarios (.yaml), or names of built-in ones: thesis vibrissa box. The first policy is compared with each other one. The default scenarios are those of
     /// the bench
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
@@ -64,19 +64,19 @@ struct Setting {
 
 pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let (scenarios, policies): (Vec<&PathBuf>, Vec<&PathBuf>) =
-        arguments.files.iter().partition(|path| path.extension().is_some_and(|end| end == "yaml" || end == "yml"));
+        arguments.files.iter().partition(|path| load::is_scenario(path));
     if policies.len() < 2 {
         return Err(Failure::TooFewPolicies { count: policies.len() });
     }
     let mut read = CommandFiles::new();
     let array = arguments.array.load(&mut read)?;
+    let loaded = policies.iter().map(|path| load::policy(path, &mut read)).collect::<Result<Vec<_>, _>>()?;
     let settings = settings(&scenarios, &array, arguments, &mut read)?;
-    array.check_seed(settings.iter().map(|setting| &setting.scene)).map_err(LoadError::from)?;
+    array.check_effect(settings.iter().map(|setting| &setting.scene)).map_err(LoadError::from)?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_deref().map(|directory| Report::new(directory, &mut read)).transpose()?;
     let mut trials = Vec::with_capacity(policies.len() * settings.len());
-    for path in &policies {
-        let policy = load::policy(path, &mut read)?;
+    for policy in &loaded {
         output::warnings(&policy.value);
         let program = Arc::new(policy.value.artifact.program.clone());
         for Setting { path, scene, hash } in &settings {

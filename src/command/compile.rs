@@ -17,7 +17,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa compile policies/vibrissa.fsm --out 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct CompileArguments {
-    /// Policy file. Or a compiled machine, to set its parameters
+    /// Policy file or name of a built-in policy such as `thesis`. Or a compiled machine, to set its parameters
     #[arg(value_name = "POLICY")]
     policy: PathBuf,
     /// File to write, usually NAME.machine

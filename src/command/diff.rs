@@ -32,7 +32,7 @@ pub(super) struct DiffArguments {
     /// The policy that receives the same samples
     #[arg(value_name = "OTHER")]
     second: PathBuf,
-    /// Scenarios. Without any, those of the bench
+    /// Scenarios or names of built-in ones. Without any, those of the bench
     #[arg(value_name = "SCENARIO")]
     scenarios: Vec<PathBuf>,
     #[command(flatten)]
@@ -51,7 +51,7 @@ pub(super) fn diff(arguments: &DiffArguments) -> Result<Exit, Failure> {
     for (path, Loaded { value: scene, hash }) in &mut scenes {
         mismatch.apply(scene, hash, 0).map_err(Failure::mismatch(path))?;
     }
-    mismatch.check_seed(scenes.iter().map(|(_, scenario)| &scenario.value)).map_err(LoadError::from)?;
+    mismatch.check_effect(scenes.iter().map(|(_, scenario)| &scenario.value)).map_err(LoadError::from)?;
     let (mut differences, mut trials) = (Vec::new(), Vec::new());
     for (path, Loaded { value: scene, .. }) in scenes {
         let trial = |policy: &Breakpoints| {

@@ -25,7 +25,7 @@ use super::values::parse_seed;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
 use vibrissa_lab::emulated;
-use vibrissa_lab::load::{self, GivenMismatch, Loaded};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
 use vibrissa_lab::report::{Table, faults_table, results_table};
 use vibrissa_lab::results::{DriveResult, UndetectedFault};
 use vibrissa_lab::trial::{Inputs, Trial};
@@ -121,6 +121,7 @@ fn emulated_config(
     settings: &EmulationSettings,
 ) -> Result<Config, Failure> {
     let array = GivenMismatch::read(None, None, &mut CommandFiles::new())?.uncalibrated(arguments.uncalibrated);
+    array.check_effect(std::iter::once(&*scene)).map_err(LoadError::from)?;
     let world = arguments.world.of(scene);
     array.calibrate_scene(scene, world).map_err(Failure::calibration(scenario))?;
     Ok(Config::emulated(scene.rig.clone(), settings.noise_microtesla))

@@ -38,7 +38,7 @@ pub(super) struct EstimatorsArguments {
 pub(super) fn estimators(arguments: &EstimatorsArguments) -> Result<Exit, Failure> {
     let program = Arc::new(load::built_in_policy(&DEFAULT_POLICY)?.value.artifact.program);
     let mismatch = arguments.array.load(&mut CommandFiles::new())?;
-    mismatch.check_seed(std::iter::empty()).map_err(LoadError::from)?;
+    mismatch.check_effect(std::iter::empty()).map_err(LoadError::from)?;
     let work = |file: &TextFile| {
         let Loaded { value: mut scene, mut hash } = load::built_in_scenario(file)?;
         mismatch.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(file.path.as_ref()))?;

@@ -20,10 +20,11 @@ const EXAMPLE: &str = "Example:\n  vibrissa inspect explain scenarios/round-tunn
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct ExplainArguments {
-    /// Scenario file
+    /// Scenario file or name of a built-in scenario such as `disk`
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// Policy or compiled machine. Overrides the policy of the scenario. Without either, `vibrissa.fsm` is used
+    /// Policy, compiled machine or name of a built-in policy such as `thesis`. Overrides the policy that the scenario names. If it names
+    /// none, `vibrissa.fsm` is used
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
     #[command(flatten)]

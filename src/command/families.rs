@@ -32,7 +32,7 @@ pub(super) struct FamiliesArguments {
     /// Families to run. The default is all families
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// Policy or compiled machine, with a parameter `speed`. The default is `vibrissa.fsm`
+    /// Policy, compiled machine or name of a built-in policy such as `thesis`, with a parameter `speed`. The default is `vibrissa.fsm`
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
     #[command(flatten)]
@@ -92,7 +92,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     let mismatch = arguments.array.load(&mut files)?;
     let trials =
         scenes.iter().map(|scene| trial(scene, &policy, &mismatch, arguments)).collect::<Result<Vec<_>, Failure>>()?;
-    mismatch.check_seed(trials.iter().map(|trial| &trial.scene)).map_err(LoadError::from)?;
+    mismatch.check_effect(trials.iter().map(|trial| &trial.scene)).map_err(LoadError::from)?;
     make_directory(arguments.out.as_deref())?;
     let report = arguments.out.as_ref().map(|directory| Report::new(directory, &scenes, &mut files)).transpose()?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
@@ -115,6 +115,7 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
 fn of_families(runs: &[FamilyRun], arguments: &FamiliesArguments) -> Provenance {
     let mut provenance = of_runs(runs.iter().map(|run| &run.result));
     provenance.scenes.clear();
+    provenance.hashes.scenarios.clear();
     let trials = match arguments.trial {
         Some(trial) => format!("trial {trial}"),
         None => format!("trials 0 to {}", arguments.count.saturating_sub(1)),

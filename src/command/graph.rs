@@ -19,7 +19,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa graph policies/thesis.fsm --out thes
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct GraphArguments {
-    /// Policy file
+    /// Policy file or name of a built-in policy such as `thesis`
     #[arg(value_name = "POLICY")]
     policy: PathBuf,
     /// Format of the statechart. By default, it follows from the ending of --out: .svg, .mmd or .dot

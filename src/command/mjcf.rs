@@ -17,7 +17,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa inspect mjcf scenarios/box.yaml > bo
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct MjcfArguments {
-    /// Scenario file
+    /// Scenario file or name of a built-in scenario such as `disk`
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
 }

@@ -29,7 +29,7 @@ const EXAMPLE: &str = "Examples:\n  vibrissa inspect near-misses --policy mine.f
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct NearMissArguments {
-    /// Scenarios. Without any, those of the bench
+    /// Scenarios or names of built-in ones. Without any, those of the bench
     #[arg(value_name = "SCENARIO", conflicts_with = "sweep")]
     scenarios: Vec<PathBuf>,
     /// Run all runs of this sweep instead, under its own policies
@@ -159,7 +159,7 @@ fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Resu
         runs.trials.push((name, Trial { world, inputs, ..Trial::new(scene, program) }));
     }
     let mut all: Vec<PolicyRuns> = all.into_iter().map(|(_, runs)| runs).collect();
-    mismatch.check_seed(trials(&all).map(|trial| &trial.scene)).map_err(LoadError::from)?;
+    mismatch.check_effect(trials(&all).map(|trial| &trial.scene)).map_err(LoadError::from)?;
     for (_, trial) in all.iter_mut().flat_map(|runs| &mut runs.trials) {
         *trial = calibrated(trial, &mismatch)?;
     }

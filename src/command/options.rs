@@ -120,7 +120,8 @@ impl WorldOptions {
 /// The array that is simulated.
 #[derive(Debug, Args)]
 pub(super) struct MismatchOptions {
-    /// Simulate an array that differs from the one that control assumes, by this file. A key in `mismatch` of the scenario precedes the
+    /// Simulate an array that differs from the one that control assumes, by this file or the built-in
+    /// `plausible`. A key in `mismatch` of the scenario precedes the
     /// same key of the file
     #[arg(long = "mismatch", value_name = "FILE")]
     mismatch_file: Option<PathBuf>,
@@ -250,7 +251,7 @@ impl FamilyValues {
 /// Several policies, by default those of the bench.
 #[derive(Debug, Args)]
 pub(super) struct Policies {
-    /// Policy or compiled machine. Replaces the built-in policies, and may be given several times
+    /// Policy, compiled machine or name of a built-in policy such as `thesis`. Replaces the built-in policies, and may be given several times
     #[arg(long = "policy", value_name = "FILE")]
     policies: Vec<PathBuf>,
     #[command(flatten)]

@@ -54,7 +54,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     let given = arguments.array.load(&mut files)?;
     let given = if scene.mismatch.is_none() { given.or_plausible()? } else { given };
     given.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(&path))?;
-    given.check_seed(std::iter::once(&scene)).map_err(LoadError::from)?;
+    given.check_effect(std::iter::once(&scene)).map_err(LoadError::from)?;
     let policies = arguments.policies.load(&mut files)?;
     let programs: Vec<_> = policies.into_iter().map(|policy| Arc::new(policy.value.artifact.program)).collect();
     let world = scene.world.unwrap_or_default();

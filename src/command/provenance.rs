@@ -1,11 +1,13 @@
 //! The origin of the results of this process.
 
 use std::env;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use vibrissa_lab::results::{MismatchRecord, Provenance, RunOrigin, RunResult, Simulator};
 use vibrissa_lab::trial::{Trial, simulator_version};
+use vibrissa_world::mismatch::Mismatch;
 
 /// The commit of the sources of this program. The build script sets it.
 const COMMIT: Option<&str> = option_env!("VIBRISSA_COMMIT");
@@ -34,8 +36,13 @@ pub(super) fn of_runs<'r>(runs: impl IntoIterator<Item = &'r RunResult>) -> Prov
             policy: &run.policy,
             simulator: simulator(&run.world),
             seed: run.seed,
-            mismatch: run.mismatch.as_ref().map(|mismatch| (record(mismatch.file.as_deref()), mismatch.seed)),
+            mismatch: run
+                .mismatch
+                .as_ref()
+                .map(|mismatch| (record(mismatch.file.as_deref()), mismatch.is_drawn.then_some(mismatch.seed))),
             calibration: run.calibration.as_ref().map(|calibration| calibration.kind),
+            scenario_hash: &run.hash.scenario,
+            policy_hash: &run.hash.policy,
         });
     }
     provenance
@@ -45,15 +52,17 @@ pub(super) fn of_runs<'r>(runs: impl IntoIterator<Item = &'r RunResult>) -> Prov
 pub(super) fn of_trials<'t>(trials: impl IntoIterator<Item = &'t Trial>) -> Provenance {
     let mut provenance = provenance();
     for trial in trials {
-        let Trial { scene, program, world, seed, .. } = trial;
-        let mismatch = scene.mismatch.as_ref();
+        let Trial { scene, program, world, seed, inputs, .. } = trial;
+        let drawn = |mismatch: &Mismatch| mismatch.is_drawn().then_some(mismatch.seed.unwrap_or(0));
         provenance.add(RunOrigin {
             scenario: &scene.name,
             policy: &program.name,
             simulator: simulator(world.kind.name()),
             seed: *seed,
-            mismatch: mismatch.map(|mismatch| (record(mismatch.file.as_deref()), mismatch.seed.unwrap_or(0))),
+            mismatch: scene.mismatch.as_ref().map(|mismatch| (record(mismatch.file.as_deref()), drawn(mismatch))),
             calibration: trial.calibration().map(|calibration| calibration.kind),
+            scenario_hash: &inputs.scenario_hash,
+            policy_hash: &inputs.policy_hash,
         });
     }
     provenance
@@ -68,24 +77,55 @@ fn record(file: Option<&str>) -> MismatchRecord {
     MismatchRecord { file: file.map(str::to_owned), seeds: Vec::new() }
 }
 
-/// The command with its arguments, quoted for a shell. It has no secret.
+/// Where a repeated command writes. The outputs of the first one stay.
+const REPEATED: &str = "repeated";
+/// Options whose values are folders of outputs.
+const FOLDERS: [&str; 2] = ["--out", "-o"];
+/// Options whose values are files of outputs.
+const FILES: [&str; 5] = ["--ticks", "--record", "--video", "--transitions", "--write"];
+
+/// The command with its arguments, quoted for a shell. It has no secret, and it does not write to the outputs of the first command.
 fn command(arguments: impl Iterator<Item = OsString>) -> String {
+    let arguments: Vec<String> = arguments.map(|argument| argument.to_string_lossy().into_owned()).collect();
+    // The parts of a sweep are merged from where they are.
+    let is_part = arguments.iter().take(2).eq(["study", "merge"])
+        || arguments.iter().any(|argument| argument.starts_with("--shard"));
     let mut words = vec!["vibrissa".to_owned()];
-    let mut is_secret = false;
-    for argument in arguments {
-        let argument = argument.to_string_lossy();
-        let name = argument.split_once('=').map_or(&*argument, |(name, _)| name);
-        let hidden = SECRET.contains(&name).then_some(name);
-        let word = match hidden {
-            _ if is_secret => "...".to_owned(),
-            Some(name) if name.len() < argument.len() => format!("{name}=..."),
-            _ => argument.to_string(),
+    let mut before: Option<&str> = None;
+    for argument in &arguments {
+        let (name, value) = match (before.take(), argument.split_once('=')) {
+            (Some(name), _) => (name, Some(argument.as_str())),
+            (None, Some((name, value))) if name.starts_with("--") => (name, Some(value)),
+            (None, _) => (argument.as_str(), None),
         };
-        is_secret = hidden.is_some_and(|name| name.len() == argument.len());
+        let replaced = value.and_then(|value| replacement(name, value, is_part));
+        let word = match replaced {
+            Some(replaced) if argument.starts_with(&format!("{name}=")) => format!("{name}={replaced}"),
+            Some(replaced) => replaced,
+            None => argument.clone(),
+        };
+        let takes_value = SECRET.contains(&name) || FOLDERS.contains(&name) || FILES.contains(&name);
+        before = (value.is_none() && takes_value).then_some(name);
         // No argument of a process has a null character.
         words.push(shlex::try_quote(&word).map_or_else(|_| word.clone(), std::borrow::Cow::into_owned));
     }
     words.join(" ")
+}
+
+/// What stands for the value of an option. `None` if that is shown.
+fn replacement(name: &str, value: &str, is_part: bool) -> Option<String> {
+    if SECRET.contains(&name) {
+        return Some("...".to_owned());
+    }
+    if is_part {
+        return None;
+    }
+    if FOLDERS.contains(&name) {
+        return Some(REPEATED.to_owned());
+    }
+    // The ending of a file determines its format.
+    let file = Path::new(value).file_name().map_or(value.into(), OsStr::to_string_lossy);
+    FILES.contains(&name).then(|| format!("{REPEATED}-{}", file.trim_start_matches(&format!("{REPEATED}-"))))
 }
 
 /// The time of the clock, or the given one in seconds since 1970.
@@ -113,6 +153,19 @@ mod tests {
             let shown = shown(arguments);
             assert!(!shown.contains("abc") && shown.contains("--live-token") && shown.ends_with(" x"), "{shown}");
         }
+    }
+
+    #[test]
+    fn a_repeated_command_writes_beside_the_outputs_of_the_first_one() {
+        for given in [&["--out", "/tmp/first"][..], &["-o", "/tmp/first"], &["--out=/tmp/first"]] {
+            let shown = shown(&[&["bench"], given].concat());
+            assert!(!shown.contains("first") && shown.contains(REPEATED), "{shown}");
+        }
+        assert_eq!(shown(&["run", "x", "--record", "a/b.mcap"]), "vibrissa run x --record repeated-b.mcap");
+        assert_eq!(shown(&["run", "x", "--record=repeated-b.mcap"]), "vibrissa run x --record=repeated-b.mcap");
+        // A merge reads what its parts wrote.
+        let part = ["sweep", "a.yaml", "--shard", "1/2", "--out", "first"];
+        assert_eq!(shown(&part), "vibrissa sweep a.yaml --shard 1/2 --out first");
     }
 
     #[test]

@@ -36,10 +36,11 @@ const EXAMPLE: &str = "Example:\n  vibrissa run scenarios/disk.yaml --out out\n\
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct RunArguments {
-    /// Scenario files, one run each
+    /// Scenario files or names of built-in scenarios such as `disk`, one run each
     #[arg(value_name = "SCENARIO", required = true)]
     pub(super) scenarios: Vec<PathBuf>,
-    /// Policy or compiled machine. Overrides the policy of the scenario. Without either, `vibrissa.fsm` is used
+    /// Policy, compiled machine or name of a built-in policy such as `thesis`. Overrides the policy that the scenario names. If it names
+    /// none, `vibrissa.fsm` is used
     #[arg(long, value_name = "FILE")]
     pub(super) policy: Option<PathBuf>,
     #[command(flatten)]
@@ -169,7 +170,7 @@ pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles
             return Err(Failure::SameName { first, second, name: trial.scene.name.clone() });
         }
     }
-    mismatch.check_seed(trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
+    mismatch.check_effect(trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
     check_noise_seed(arguments.seed, trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
     for Prepared { trial, .. } in &mut trials {
         *trial = calibrated(trial, &mismatch)?;

@@ -144,6 +144,8 @@ fn of_sweep(plan: &Plan) -> Result<Provenance, Failure> {
     let trials = samples.iter().map(|run| plan.trial(run)).collect::<Result<Vec<_>, _>>()?;
     let mut provenance = of_trials(&trials);
     (provenance.scenes, provenance.seeds) = (Vec::new(), Vec::new());
+    // The header of the results has the hashes of the files. Every run has those of its scene.
+    provenance.hashes.scenarios.clear();
     for (run, trial) in samples.iter().zip(&trials) {
         let (scenes, first) = (run.scenes(), trial.seed.wrapping_sub(run.trial));
         let last = scenes.trials.saturating_sub(1);

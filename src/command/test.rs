@@ -16,9 +16,7 @@ use super::progress::Progress;
 use super::provenance::{of_runs, of_trials};
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
 use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar};
-use vibrissa_lab::load::{
-    self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, SeedWithoutEffect, with_settings,
-};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, WithoutEffect, with_settings};
 use vibrissa_lab::property::Regressions;
 use vibrissa_lab::results::{Document, RunResult};
 use vibrissa_lab::trial::{Trial, violations};
@@ -32,7 +30,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct TestArguments {
-    /// Policy files
+    /// Policy files or names of built-in policies such as `thesis`
     #[arg(value_name = "POLICY", required = true)]
     policies: Vec<PathBuf>,
     /// Run only tests and properties with this text in their title
@@ -116,10 +114,10 @@ pub(super) fn test(arguments: &TestArguments) -> Result<Exit, Failure> {
     if let (0, Some(filter)) = (count, &arguments.filter) {
         return Err(Failure::NoSuchTest { filter: filter.clone() });
     }
-    mismatch.check_seed(tests().filter_map(Runs::trial).map(|trial| &trial.scene)).map_err(LoadError::from)?;
+    mismatch.check_effect(tests().filter_map(Runs::trial).map(|trial| &trial.scene)).map_err(LoadError::from)?;
     let properties = tests().filter(|runs| matches!(runs, Runs::Property(_))).count();
     if arguments.search.seed.is_some() && properties == 0 {
-        return Err(LoadError::from(SeedWithoutEffect::Cases).into());
+        return Err(LoadError::from(WithoutEffect::Cases).into());
     }
     make_directory(arguments.out.as_deref())?;
     let reports = (1..).zip(tests()).map(|(number, runs)| {

@@ -31,16 +31,16 @@ const EXAMPLE: &str = "Example:\n  vibrissa tune policies/thesis.fsm --param tar
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct TuneArguments {
-    /// Policy or compiled machine
+    /// Policy, compiled machine or name of a built-in policy such as `thesis`
     #[arg(value_name = "POLICY")]
     policy: PathBuf,
     /// Parameter to tune, within the range that the policy declares. The default is all parameters with a range
     #[arg(long = "param", value_name = "NAME")]
     parameters: Vec<String>,
-    /// Scenario file or family of the training scenes. May be given several times
+    /// Scenario file, name of a built-in scenario or family of the training scenes. May be given several times
     #[arg(long = "scene", value_name = "FILE|FAMILY", required = true)]
     scenes: Vec<PathBuf>,
-    /// Scenario file or family of the held-out scenes. The default is further scenes of the training families
+    /// Scenario file, name of a built-in scenario or family of the held-out scenes. The default is further scenes of the training families
     #[arg(long = "held-out", value_name = "FILE|FAMILY")]
     held_out: Vec<PathBuf>,
     /// Number of scenes of each family, for training and again as held-out scenes
@@ -89,7 +89,7 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
     }
     let array = arguments.array.load(&mut files)?;
     array
-        .check_seed(training.iter().chain(&held_out).filter_map(TuningScene::of_scenario))
+        .check_effect(training.iter().chain(&held_out).filter_map(TuningScene::of_scenario))
         .map_err(load::LoadError::from)?;
     let objective = Objective::new(&arguments.weights);
     let mut header = header(short_hash(&policy.hash.finalize()), &axes, [&training, &held_out], &objective, arguments);
@@ -198,7 +198,7 @@ fn scenes(
 ) -> Result<Vec<TuningScene>, Failure> {
     let mut scenes = Vec::new();
     for path in names {
-        let is_file = path.extension().is_some_and(|end| end == "yaml" || end == "yml");
+        let is_file = load::is_scenario(path);
         match family(path) {
             _ if is_file => scenes.push(TuningScene::scenario(load::scenario(path, files)?)),
             Some(family) => {

@@ -12,10 +12,16 @@ pub struct TextFile {
 }
 
 impl TextFile {
+    /// Its name, such as `disk`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        Path::new(self.path).file_stem().and_then(|name| name.to_str()).unwrap_or(self.path)
+    }
+
     /// The one of `files` with this name, such as `disk`. A path with a folder or an ending is no name.
     #[must_use]
     pub fn named(files: &'static [Self], name: &Path) -> Option<&'static Self> {
-        files.iter().find(|file| Path::new(file.path).file_stem() == Some(name.as_os_str()))
+        files.iter().find(|file| Path::new(file.name()) == name)
     }
 }
 
@@ -44,6 +50,9 @@ pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm"), DEFAULT_P
 
 /// The mismatch of an array that is made with care and that nobody has calibrated.
 pub const PLAUSIBLE_MISMATCH: TextFile = text_file!("scenarios/mismatch/plausible.yaml");
+
+/// The mismatches that have a name.
+pub const MISMATCHES: &[TextFile] = &[PLAUSIBLE_MISMATCH];
 
 /// The policy that runs in scenes of families unless another is given.
 pub const DEFAULT_POLICY: TextFile = text_file!("policies/vibrissa.fsm");

@@ -342,3 +342,17 @@ fn a_third_of_the_readings_lost_gives_no_command_that_is_not_finite() {
         assert_ne!(results[0]["outcome"], "failed", "{kind}: {}", stderr(&output));
     }
 }
+
+#[test]
+fn an_array_that_is_not_calibrated_needs_a_mismatch() {
+    for command in [
+        &["run", "disk"][..],
+        &["compare", "thesis", "vibrissa", "disk"],
+        &["bench"],
+        &["families", "convex-corner", "--count", "1"],
+    ] {
+        let output = vibrissa(&[command, &["--uncalibrated", "--world", "quasistatic"]].concat());
+        assert_eq!(output.status.code(), Some(2), "{command:?}");
+        assert!(stderr(&output).contains("--uncalibrated has no effect"), "{command:?}: {}", stderr(&output));
+    }
+}

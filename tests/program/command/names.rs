@@ -92,3 +92,39 @@ fn a_path_that_is_not_utf_8_is_told_and_can_be_avoided() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(picture.is_file());
 }
+
+#[test]
+fn built_in_names_are_accepted_wherever_a_file_is() {
+    let directory = directory("built-in-names");
+    let sweep = "name: one\npolicies: [thesis]\nscenes: [{scenario: disk}]\nvary: {scenario: {world: [quasistatic], stop: [{time: 1 s}]}}\n";
+    std::fs::write(directory.join("one.yaml"), sweep).unwrap();
+    for arguments in [
+        &["check", "thesis"][..],
+        &["graph", "thesis", "-o", "chart.svg"],
+        &["compile", "thesis", "-o", "thesis.machine"],
+        &["compare", "thesis", "vibrissa", "box", "--world", "quasistatic"],
+        &["run", "disk", "--policy", "thesis", "--mismatch", "plausible", "--uncalibrated", "--world", "quasistatic"],
+        &["families", "convex-corner", "--count", "1", "--policy", "thesis", "--world", "quasistatic"],
+        &["sweep", "one.yaml", "--out", "swept"],
+        &["inspect", "explain", "disk", "--policy", "thesis"],
+    ] {
+        let output = run(&directory, arguments);
+        assert!(output.status.code() < Some(2), "{arguments:?}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_name_that_cannot_be_read_is_told_before_anything_else() {
+    let directory = directory("wrong-names");
+    for (arguments, meant) in [
+        (&["compare", "thesis", "vibrisa", "box"][..], "policy is needed here; did you mean `vibrissa`?"),
+        (&["compare", "thesis", "policies/vibrissa.fsm"], "policy is needed here; did you mean `vibrissa`?"),
+        (&["run", "dsik"], "scenario is needed here; did you mean `disk`?"),
+        (&["run", "disk", "--mismatch", "plausibel"], "mismatch is needed here; did you mean `plausible`?"),
+    ] {
+        let output = run(&directory, arguments);
+        let told = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(meant) && told.lines().count() == 1, "{told}");
+    }
+}

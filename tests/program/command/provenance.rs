@@ -36,7 +36,8 @@ fn title(page: &str) -> &str {
 fn the_command_on_the_page_of_a_comparison_repeats_it() {
     let directory = directory("provenance");
     let (scenario, out) = (scenario(&directory), directory.join("a comparison"));
-    let policies = ["policies/bang.fsm", "policies/vibrissa.fsm"];
+    let policies = ["bang", "vibrissa"].map(|name| format!("{ROOT}/policies/{name}.fsm"));
+    let policies = [policies[0].as_str(), &policies[1]];
     let arguments = |seeds| {
         let options = ["--seeds", seeds, "--jitter", "10 mm", "--world", "quasistatic", "--out", out.to_str().unwrap()];
         [&["compare"][..], &policies, &[&scenario], &options]
@@ -69,15 +70,26 @@ fn the_command_on_the_page_of_a_comparison_repeats_it() {
     assert!(page.contains("commit") && page.contains("quasistatic 0."));
     assert!(page.contains("95 % interval") && title(&page) != title(&other), "{}", title(&page));
 
-    fs::remove_dir_all(&out).unwrap();
+    // It has the hashes of its inputs, which are those of the results.
+    let results: Value = serde_json::from_str(&read(&out.join("results.json"))).unwrap();
+    let hashes = &provenance["hashes"];
+    assert_eq!(hashes["scenarios"], serde_json::json!([{"name": "disk", "hash": results[0]["hash"]["scenario"]}]));
+    for (policy, run) in hashes["policies"].as_array().unwrap().iter().zip([&results[0], &results[4]]) {
+        assert_eq!((&policy["name"], &policy["hash"]), (&run["policy"], &run["hash"]["policy"]));
+        assert!(page.contains(policy["hash"].as_str().unwrap()));
+    }
+    assert!(page.contains("in the root of ") && page.contains(results[0]["hash"]["scenario"].as_str().unwrap()));
+
     let folder = Path::new(env!("CARGO_BIN_EXE_vibrissa")).parent().unwrap();
     let path = format!("{}:{}", folder.display(), std::env::var("PATH").unwrap());
     let mut shell = Command::new("sh");
-    shell.args(["-c", command]).current_dir(ROOT).env("PATH", path).env("SOURCE_DATE_EPOCH", "1764000000");
+    shell.args(["-c", command]).current_dir(&directory).env("PATH", path).env("SOURCE_DATE_EPOCH", "1764000000");
     let output = shell.output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(read(&out.join("comparison.json")), first);
-    assert_eq!(read(&out.join("index.html")), page);
+    let repeated = directory.join("repeated");
+    assert_eq!(read(&repeated.join("comparison.json")), first);
+    assert_eq!(read(&repeated.join("index.html")), page);
+    assert!(out.join("index.html").is_file() && !command.contains("a comparison"), "{command}");
 }
 
 #[test]
@@ -135,4 +147,39 @@ fn a_sweep_has_a_curve_with_a_band_over_each_axis_for_each_policy() {
     let first = read(&out.join("results.jsonl"));
     let header: Value = serde_json::from_str(first.lines().next().unwrap()).unwrap();
     assert_eq!(header["provenance"], summary["provenance"]);
+}
+
+#[test]
+fn a_changed_policy_has_another_hash_on_the_page() {
+    let directory = directory("provenance-hash");
+    let (scenario, thesis) = (scenario(&directory), read(&Path::new(ROOT).join("policies/thesis.fsm")));
+    let faster = thesis.replacen("speed = 50 mm/s", "speed = 60 mm/s", 1);
+    assert_ne!(faster, thesis);
+    let path = directory.join("thesis.fsm");
+    let page = |text: &str| {
+        fs::write(&path, text).unwrap();
+        let out = directory.join("out").display().to_string();
+        let policy = path.to_str().unwrap();
+        let output = dated(&["run", &scenario, "--policy", policy, "--world", "quasistatic", "--out", &out]);
+        assert!(output.status.code() < Some(2), "{}", stderr(&output));
+        let page = read(&directory.join("out/index.html"));
+        page.split_once("hashes of policies").unwrap().1.split_once("</dd>").unwrap().0.to_owned()
+    };
+    assert_ne!(page(&thesis), page(&faster));
+}
+
+#[test]
+fn a_page_has_seeds_of_a_mismatch_only_if_it_has_ranges() {
+    let directory = directory("provenance-mismatch");
+    let (scenario, path) = (scenario(&directory), directory.join("soft.yaml"));
+    let seeds = |text: &str| {
+        fs::write(&path, text).unwrap();
+        let (out, mismatch) = (directory.join("out").display().to_string(), path.display().to_string());
+        let command = ["run", &scenario, "--policy", "thesis", "--world", "quasistatic", "--uncalibrated"];
+        let output = dated(&[&command[..], &["--mismatch", &mismatch, "--out", &out]].concat());
+        assert!(output.status.code() < Some(2), "{}", stderr(&output));
+        let page = read(&directory.join("out/index.html"));
+        page.contains(&format!("{mismatch}, seeds 0"))
+    };
+    assert!(!seeds("stiffness: 5 %\n") && seeds("stiffness: [1 %, 5 %]\n"));
 }

@@ -75,6 +75,26 @@ fn a_comparison_is_written_as_sentences_with_the_verdicts_of_its_document() {
 }
 
 #[test]
+fn the_page_of_a_comparison_lists_the_runs_that_did_not_complete() {
+    let directory = directory("report-incomplete");
+    let (scene, out) = (failing(&directory), directory.display().to_string());
+    let blind = directory.join("blind.fsm").display().to_string();
+    let output = vibrissa(&["compare", "policies/bang.fsm", &blind, &scene, "--out", &out]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let document: Value =
+        serde_json::from_str(&fs::read_to_string(directory.join("comparison.json")).unwrap()).unwrap();
+    let page = fs::read_to_string(directory.join("index.html")).unwrap();
+    let listed = between(&page, "<h2>Runs that did not complete</h2>", "</section>");
+    let run = &document["policies"][1]["incomplete"][0];
+    assert_eq!(run["outcome"], "failed");
+    for text in ["blind.fsm", "far", ">0<", "failed", "no &lt;surface&gt;"] {
+        assert!(listed.contains(text), "{text}: {listed}");
+    }
+    // The share of completed runs has one form.
+    assert!(page.contains("completed %") && !page.contains("<code>completed</code>"));
+}
+
+#[test]
 fn a_sweep_draws_the_runs_that_did_not_pass_and_its_page_opens_them() {
     let directory = directory("report-sweep");
     failing(&directory);

@@ -106,7 +106,7 @@ fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
 #[test]
 fn a_run_with_a_mismatch_has_only_to_complete_and_says_so() {
     let mut bent = result("disk", 5e-3);
-    bent.mismatch = Some(MismatchIdentity { file: None, seed: 0 });
+    bent.mismatch = Some(MismatchIdentity::default());
     let row = BenchRow::new(bent.clone()).under(Conditions::default());
     assert!(row.passed && row.scene() == "disk, mismatch");
     bent.outcome = Ending::Failed;

@@ -12,7 +12,7 @@ const HEADINGS: [&str; 5] = [
     "`thesis.fsm`, plausible array",
     "`vibrissa.fsm`, ideal array",
     "`vibrissa.fsm`, plausible array",
-    "coverage, `vibrissa.fsm`",
+    "coverage, `vibrissa.fsm`, ideal array",
 ];
 /// The figure of a page that has none.
 const NONE: &str = "–";

@@ -10,7 +10,8 @@ use vibrissa_text::diagnostic::{Diagnostic, Source};
 use vibrissa_world::scenario::unreadable;
 use vibrissa_world::scene::FileReference;
 
-use super::seed::SeedWithoutEffect;
+use super::seed::WithoutEffect;
+use super::sought::Sought;
 use super::text::reason;
 
 /// The error of a file that cannot be used.
@@ -21,6 +22,21 @@ pub enum LoadError {
     Read {
         /// The file.
         path: PathBuf,
+        /// The cause.
+        cause: std::io::Error,
+    },
+    /// There is no file at the path, and no built-in text has this name.
+    #[error(
+        "cannot read {}: {cause}; a {sought} is needed here{}; the built-in names are {}",
+        path.display(), meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean `{meant}`?")), sought.names()
+    )]
+    Missing {
+        /// What the path is given for.
+        sought: Sought,
+        /// The path.
+        path: PathBuf,
+        /// The most probable meaning, a built-in name or a file of the same folder.
+        meant: Option<String>,
         /// The cause.
         cause: std::io::Error,
     },
@@ -71,9 +87,9 @@ pub enum LoadError {
         /// The cause.
         cause: SetsError,
     },
-    /// A seed has no effect.
+    /// An option has no effect.
     #[error(transparent)]
-    Seed(#[from] SeedWithoutEffect),
+    WithoutEffect(#[from] WithoutEffect),
     /// The file is no recording that can be used.
     #[error("{}: {cause}", path.display())]
     Recording {
@@ -113,7 +129,9 @@ impl LoadError {
     /// as they are.
     pub(crate) fn named_in(source: &Source, file: &FileReference) -> impl FnOnce(Self) -> Self {
         |error| match error {
-            Self::Read { path, cause } => Self::at(source, unreadable(file, &reason(&path, &cause))),
+            Self::Read { path, cause } | Self::Missing { path, cause, .. } => {
+                Self::at(source, unreadable(file, &reason(&path, &cause)))
+            }
             other => other,
         }
     }

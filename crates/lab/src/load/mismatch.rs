@@ -4,8 +4,9 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use super::seed::{SeedWithoutEffect, check_mismatch_seed};
-use super::text::read;
+use super::seed::{WithoutEffect, check_mismatch_seed};
+use super::sought::Sought;
+use super::text::{SIZE_LIMIT, name, text};
 use super::{LoadError, Loaded};
 use crate::built_in::PLAUSIBLE_MISMATCH;
 use crate::calibration::{ArrayCalibrationError, ArrayCalibrations};
@@ -30,7 +31,7 @@ pub struct GivenMismatch {
 }
 
 impl GivenMismatch {
-    /// Reads the file at `path`. `seed` replaces the seeds of files and scenarios.
+    /// Reads the file at `path`, which can also be the name of a built-in mismatch. `seed` replaces the seeds of files and scenarios.
     pub fn read(path: Option<&Path>, seed: Option<u64>, files: &mut CommandFiles) -> Result<Self, LoadError> {
         Ok(Self::new(path.map(|path| mismatch(path, files)).transpose()?, seed))
     }
@@ -65,13 +66,18 @@ impl GivenMismatch {
         inputs.map(|(name, value)| (name.to_owned(), value))
     }
 
-    /// Checks that the seed of the mismatch, if one is given, changes the array of one of these scenes. A mismatch with ranges
-    /// is enough, so scenes that are drawn later need not be given.
+    /// Checks that the given options change the array of one of these scenes: the seed of the mismatch if one is given, and that
+    /// arrays are not calibrated if they are not. A given mismatch, with ranges for the seed, is enough, so scenes that are drawn later need not be given.
     ///
     /// # Errors
-    /// [`SeedWithoutEffect`] if it does not.
-    pub fn check_seed<'s>(&self, scenes: impl Iterator<Item = &'s Scene>) -> Result<(), SeedWithoutEffect> {
-        check_mismatch_seed(self.seed, self.file.as_ref().map(|file| &file.value), scenes)
+    /// [`WithoutEffect`] if it does not.
+    pub fn check_effect<'s>(&self, scenes: impl Iterator<Item = &'s Scene>) -> Result<(), WithoutEffect> {
+        let scenes: Vec<&Scene> = scenes.collect();
+        let differs = self.file.is_some() || scenes.iter().any(|scene| scene.mismatch.is_some());
+        if !self.is_calibrated() && !differs {
+            return Err(WithoutEffect::Uncalibrated);
+        }
+        check_mismatch_seed(self.seed, self.file.as_ref().map(|file| &file.value), scenes.into_iter())
     }
 
     /// True if true arrays are calibrated.
@@ -133,7 +139,9 @@ impl GivenMismatch {
 
 /// Reads a file with a mismatch.
 fn mismatch(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Mismatch>, LoadError> {
-    mismatch_in(read(path, files)?)
+    let name = name(path)?;
+    let bytes = Sought::Mismatch.bytes(path, SIZE_LIMIT, files)?;
+    mismatch_in(Source::new(name, text(&bytes).map_err(LoadError::read(path))?))
 }
 
 /// The mismatch of a text that has been read.

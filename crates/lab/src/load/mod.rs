@@ -6,6 +6,7 @@ mod policy;
 mod recording;
 mod scenario;
 mod seed;
+mod sought;
 mod text;
 
 pub use error::LoadError;
@@ -21,7 +22,8 @@ pub use scenario::{
     beside, built_in_scenario, contact_sets, count_sets, outline_file, rig_in, scenario, scenario_in, scenario_text,
     touches,
 };
-pub use seed::{SeedWithoutEffect, check_noise_seed};
+pub use seed::{WithoutEffect, check_noise_seed};
+pub use sought::{Sought, is_scenario};
 pub use text::{read, read_standard};
 
 use sha2::Sha256;

@@ -5,8 +5,8 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, ParameterValue, Program, SetError};
 
-use super::scenario::beside;
-use super::text::{SIZE_LIMIT, bytes, name, reason, text};
+use super::sought::Sought;
+use super::text::{SIZE_LIMIT, name, reason, text};
 use super::{LoadError, Loaded};
 use crate::built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
 use vibrissa_language::chart::Chart;
@@ -27,7 +27,7 @@ pub enum PolicyFile {
 /// Reads the text of a policy or a compiled machine. The path can also be the name of a built-in policy. A machine is recognised by its first bytes or by its name. The
 /// hash is that of the file alone.
 pub fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, LoadError> {
-    let bytes = bytes(path, ARTIFACT_LIMIT, POLICIES, files)?;
+    let bytes = Sought::Policy.bytes(path, ARTIFACT_LIMIT, files)?;
     let hash = Sha256::new().chain_update(&bytes);
     let value = if Artifact::is_in(&bytes) || path.extension().is_some_and(|ending| ending == "machine") {
         PolicyFile::Machine(Box::new(Artifact::from_bytes(&bytes).map_err(LoadError::artifact(path))?))
@@ -105,7 +105,7 @@ pub fn policy_for(
             built_in_policy(named_by_built_in(scene))
         }
         (None, Some(PolicyReference { file, settings })) => {
-            let path = beside(Path::new(&source.name), &file.path);
+            let path = Sought::Policy.beside(Path::new(&source.name), &file.path);
             let named = policy(&path, files).map_err(LoadError::named_in(source, file))?;
             settings.iter().try_fold(named, |policy, PolicySetting { name, value, span }| {
                 let unfit = |cause: SetError| LoadError::at(source, scenario::unfit(*span, &cause.to_string()));

@@ -6,9 +6,10 @@ use sha2::{Digest, Sha256};
 use vibrissa_runtime::calibration::{ContactSet, TouchReading};
 use vibrissa_runtime::rig::Rig;
 
-use super::text::{SIZE_LIMIT, bytes, name, read, reason, text};
+use super::sought::Sought;
+use super::text::{SIZE_LIMIT, name, read, reason, text};
 use super::{LoadError, Loaded};
-use crate::built_in::{SCENARIOS, TextFile};
+use crate::built_in::TextFile;
 use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_touches};
 use vibrissa_text::diagnostic::Source;
 use vibrissa_text::file::CommandFiles;
@@ -24,7 +25,7 @@ pub fn scenario(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Scene>, 
 /// Reads the text of a scenario. The path can also be the name of a built-in one, such as `disk`.
 pub fn scenario_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
     let name = name(path)?;
-    let bytes = bytes(path, SIZE_LIMIT, SCENARIOS, files)?;
+    let bytes = Sought::Scenario.bytes(path, SIZE_LIMIT, files)?;
     Ok(Source::new(name, text(&bytes).map_err(LoadError::read(path))?))
 }
 

@@ -1,21 +1,27 @@
-//! Seeds that are given and have no effect.
+//! Options that are given and have no effect.
 
 use vibrissa_world::mismatch::Mismatch;
 use vibrissa_world::scene::Scene;
 
-/// A seed that was given although nothing depends on it.
+/// An option that was given although nothing depends on it: a seed, or that arrays are not calibrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum SeedWithoutEffect {
-    /// That of the values of a mismatch.
+pub enum WithoutEffect {
+    /// The seed of the values of a mismatch.
     #[error(
         "the seed of the mismatch (--mismatch-seed) has no effect, because no value of a mismatch is a range; leave it out, or give \
          ranges as in scenarios/mismatch/array.yaml"
     )]
     Mismatch,
-    /// That of the cases of properties.
+    /// That arrays are not calibrated.
+    #[error(
+        "--uncalibrated has no effect, because no array differs from the one that control assumes; leave it out, or give a mismatch: \
+         --mismatch plausible"
+    )]
+    Uncalibrated,
+    /// The seed of the cases of properties.
     #[error("the seed of the cases (--seed) has no effect, because no property is tested; leave it out")]
     Cases,
-    /// That of the noise.
+    /// The seed of the noise.
     #[error(
         "the seed of the noise (--seed) has no effect, because nothing has noise; leave it out, or add noise: --noise of `bench` \
          and `calibrate`, `rig.sensing` of a scenario, or `sensor` and `pose` of a mismatch"
@@ -27,8 +33,8 @@ pub enum SeedWithoutEffect {
 pub fn check_noise_seed<'s>(
     seed: Option<u64>,
     mut scenes: impl Iterator<Item = &'s Scene>,
-) -> Result<(), SeedWithoutEffect> {
-    if seed.is_none() || scenes.any(Scene::is_noisy) { Ok(()) } else { Err(SeedWithoutEffect::Noise) }
+) -> Result<(), WithoutEffect> {
+    if seed.is_none() || scenes.any(Scene::is_noisy) { Ok(()) } else { Err(WithoutEffect::Noise) }
 }
 
 /// Checks that a seed of a mismatch, if one is given, changes the array of one of the scenes.
@@ -36,7 +42,7 @@ pub(super) fn check_mismatch_seed<'s>(
     seed: Option<u64>,
     file: Option<&Mismatch>,
     scenes: impl Iterator<Item = &'s Scene>,
-) -> Result<(), SeedWithoutEffect> {
+) -> Result<(), WithoutEffect> {
     let mut mismatches = file.into_iter().chain(scenes.filter_map(|scene| scene.mismatch.as_ref()));
-    if seed.is_none() || mismatches.any(Mismatch::is_drawn) { Ok(()) } else { Err(SeedWithoutEffect::Mismatch) }
+    if seed.is_none() || mismatches.any(Mismatch::is_drawn) { Ok(()) } else { Err(WithoutEffect::Mismatch) }
 }

@@ -6,7 +6,6 @@ use std::path::Path;
 use vibrissa_runtime::units::suggest;
 
 use super::LoadError;
-use crate::built_in::TextFile;
 use vibrissa_text::diagnostic::{NotUtf8, Source, utf8};
 use vibrissa_text::file::CommandFiles;
 
@@ -23,20 +22,6 @@ pub fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> 
     let name = name(path)?;
     let text = files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(path))?;
     Ok(Source::new(name, text))
-}
-
-/// Reads a file. If there is none at the path, the one of `built_in` with this name.
-pub(super) fn bytes(
-    path: &Path,
-    limit: usize,
-    built_in: &'static [TextFile],
-    files: &mut CommandFiles,
-) -> Result<Vec<u8>, LoadError> {
-    let missing = |cause: &Error| cause.kind() == ErrorKind::NotFound;
-    match (files.read(path, limit), TextFile::named(built_in, path)) {
-        (Err(cause), Some(file)) if missing(&cause) => Ok(file.text.as_bytes().to_owned()),
-        (read, _) => read.map_err(LoadError::read(path)),
-    }
 }
 
 pub(super) fn text(bytes: &[u8]) -> Result<String, Error> {
@@ -63,14 +48,20 @@ pub(super) fn reason(path: &Path, cause: &Error) -> String {
     if cause.kind() != ErrorKind::NotFound {
         return cause.to_string();
     }
-    let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
-    let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
-    let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
-    // The first of several equally similar names is suggested. A folder has no order of its own.
-    siblings.sort_unstable();
+    let siblings = siblings(path);
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
         Some(meant) => format!("{cause}; did you mean `{meant}`?"),
         None => cause.to_string(),
     }
+}
+
+/// The names of the files in the folder of a path, in order. The first of several equally similar names is suggested, and a folder
+/// has no order of its own.
+pub(super) fn siblings(path: &Path) -> Vec<String> {
+    let siblings = path.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+    let siblings = siblings.and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
+    let mut siblings: Vec<String> = siblings.filter_map(|sibling| sibling.file_name().into_string().ok()).collect();
+    siblings.sort_unstable();
+    siblings
 }

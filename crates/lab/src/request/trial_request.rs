@@ -108,7 +108,7 @@ impl TrialRequest {
         let (mut trial, policy) = self.prepare_in(&mismatch, &mut files, |_| ())?;
         if !self.unused_seeds {
             let scene = || std::iter::once(&trial.scene);
-            mismatch.check_seed(scene()).map_err(LoadError::from)?;
+            mismatch.check_effect(scene()).map_err(LoadError::from)?;
             load::check_noise_seed(self.seed, scene()).map_err(LoadError::from)?;
         }
         if let Err(cause) = mismatch.calibrate(&mut trial) {

@@ -29,7 +29,10 @@ pub use ending::{Ending, unmet};
 pub use failsafes::Failsafes;
 pub use inclination::Inclination;
 pub use largest_error::LargestError;
-pub use provenance::{JitterRecord, MismatchRecord, Provenance, RunOrigin, SeedRange, Simulator, add_seed, add_seeds};
+pub use provenance::{
+    InputHash, InputHashes, JitterRecord, MismatchRecord, Provenance, RunOrigin, SeedRange, Simulator, add_seed,
+    add_seeds,
+};
 pub use rate::Rate;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub use run_result::marked;

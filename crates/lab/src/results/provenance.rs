@@ -10,7 +10,8 @@ use super::CalibrationKind;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Provenance {
-    /// The command, quoted for a shell. Given again in the same directory, it repeats the result.
+    /// The command, quoted for a shell. Given again in the same directory, it repeats the result. Its output goes to a path of
+    /// its own, so that the first result stays.
     pub command: String,
     /// Version of the program.
     pub version: String,
@@ -32,6 +33,30 @@ pub struct Provenance {
     pub mismatches: Vec<MismatchRecord>,
     /// What control assumed of the arrays that differ from those of the scenes, or that are calibrated. Each run names its calibration.
     pub calibrations: Vec<CalibrationKind>,
+    /// Hashes of what the runs were made from. Empty without runs.
+    #[serde(default)]
+    pub hashes: InputHashes,
+}
+
+/// Hashes of the inputs of runs, as in the key `hash` of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct InputHashes {
+    /// Of the policies with their libraries and parameters, each once.
+    pub policies: Vec<InputHash>,
+    /// Of the scenarios with their files and their mismatch, each in its first run. Further starts and seeds of a mismatch have
+    /// hashes of their own.
+    pub scenarios: Vec<InputHash>,
+}
+
+/// The hash of an input.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct InputHash {
+    /// Name of the policy or scenario.
+    pub name: String,
+    /// Its hash.
+    pub hash: String,
 }
 
 /// A simulator.
@@ -70,7 +95,7 @@ pub struct JitterRecord {
 pub struct MismatchRecord {
     /// Path of its file. `None` if scenarios alone have it.
     pub file: Option<String>,
-    /// The seeds of drawn values.
+    /// The seeds of drawn values. Empty if no value is a range.
     pub seeds: Vec<SeedRange>,
 }
 
@@ -85,16 +110,21 @@ pub struct RunOrigin<'r> {
     pub simulator: Simulator,
     /// Seed of its noise.
     pub seed: u64,
-    /// Its mismatch, with an empty list of seeds, and the seed of drawn values.
-    pub mismatch: Option<(MismatchRecord, u64)>,
+    /// Its mismatch, with an empty list of seeds, and the seed of drawn values. The seed is `None` if no value is a range.
+    pub mismatch: Option<(MismatchRecord, Option<u64>)>,
     /// Its calibration.
     pub calibration: Option<CalibrationKind>,
+    /// Hash of its scenario.
+    pub scenario_hash: &'r str,
+    /// Hash of its policy.
+    pub policy_hash: &'r str,
 }
 
 impl Provenance {
     /// Adds a run. Names and seeds are kept once.
     pub fn add(&mut self, run: RunOrigin<'_>) {
-        let RunOrigin { scenario, policy, simulator, seed, mismatch, calibration } = run;
+        let RunOrigin { scenario, policy, simulator, seed, mismatch, calibration, scenario_hash, policy_hash } = run;
+        self.hashes.add(scenario, scenario_hash, policy, policy_hash);
         self.add_scene(scenario);
         self.add_policy(policy);
         self.add_simulator(simulator);
@@ -104,7 +134,8 @@ impl Provenance {
         if self.mismatches.iter().all(|known| known.file != mismatch.file) {
             self.mismatches.push(mismatch.clone());
         }
-        for known in self.mismatches.iter_mut().filter(|known| known.file == mismatch.file) {
+        let known = self.mismatches.iter_mut().filter(|known| known.file == mismatch.file);
+        for (known, seed) in known.zip(seed) {
             add_seed(&mut known.seeds, seed);
         }
     }
@@ -123,6 +154,18 @@ impl Provenance {
     pub fn add_simulator(&mut self, simulator: Simulator) {
         if !self.simulators.contains(&simulator) {
             self.simulators.push(simulator);
+        }
+    }
+}
+
+impl InputHashes {
+    fn add(&mut self, scenario: &str, scenario_hash: &str, policy: &str, policy_hash: &str) {
+        if self.scenarios.iter().all(|known| known.name != scenario) {
+            self.scenarios.push(InputHash { name: scenario.to_owned(), hash: scenario_hash.to_owned() });
+        }
+        let policy = InputHash { name: policy.to_owned(), hash: policy_hash.to_owned() };
+        if !self.policies.contains(&policy) {
+            self.policies.push(policy);
         }
     }
 }

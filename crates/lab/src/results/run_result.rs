@@ -149,11 +149,14 @@ pub struct MismatchIdentity {
     pub file: Option<String>,
     /// Seed of the values that are drawn from ranges.
     pub seed: u64,
+    /// True if a value is a range, so that the seed has an effect.
+    #[serde(skip)]
+    pub is_drawn: bool,
 }
 
 impl From<&Mismatch> for MismatchIdentity {
     fn from(mismatch: &Mismatch) -> Self {
-        Self { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0) }
+        Self { file: mismatch.file.clone(), seed: mismatch.seed.unwrap_or(0), is_drawn: mismatch.is_drawn() }
     }
 }
 

@@ -11,7 +11,7 @@ use vibrissa_runtime::units::Dimension;
 use super::{Header, ScenesOf, Shard, Sweep, SweepRun};
 use crate::calibration::ArrayCalibrationError;
 use crate::family::{NoDraw, Values};
-use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, beside, outline_file, with_settings};
+use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, Sought, beside, outline_file, with_settings};
 use crate::trial::{ExecuteError, Inputs, Trial, check_world, engine_version, short_hash};
 use vibrissa_declare::catalogue::common::SPEED;
 use vibrissa_text::diagnostic::Source;
@@ -97,7 +97,8 @@ impl Plan {
         };
         let mut policies = Vec::new();
         for file in sweep.policies() {
-            let policy = load::program(&beside(path, &file.path), files).map_err(LoadError::named_in(&source, file))?;
+            let policy = load::program(&Sought::Policy.beside(path, &file.path), files)
+                .map_err(LoadError::named_in(&source, file))?;
             hashed("policy", &file.path, policy.hash.clone());
             policies.push(policy);
         }
@@ -107,7 +108,8 @@ impl Plan {
                 scenarios.push(None);
                 continue;
             };
-            let text = load::read(&beside(path, &file.path), files).map_err(LoadError::named_in(&source, file))?;
+            let text = load::scenario_text(&Sought::Scenario.beside(path, &file.path), files)
+                .map_err(LoadError::named_in(&source, file))?;
             hashed("scenario", &file.path, Sha256::new_with_prefix(&text.text));
             scenarios.push(Some(text));
         }
@@ -153,7 +155,8 @@ impl Plan {
     /// [`PlanError`] if a policy cannot be used.
     pub fn analysed_policies(&self, files: &mut CommandFiles) -> Result<Vec<Policy>, PlanError> {
         let policies = self.sweep.policies();
-        let read = |file: &FileReference| Ok(load::policy(&beside(&self.path, &file.path), files)?.value);
+        let read =
+            |file: &FileReference| Ok(load::policy(&Sought::Policy.beside(&self.path, &file.path), files)?.value);
         policies.iter().map(read).collect()
     }
 
@@ -180,7 +183,7 @@ impl Plan {
             }
             scenes.push(trial.scene);
         }
-        Ok(self.mismatch.check_seed(scenes.iter()).map_err(LoadError::from)?)
+        Ok(self.mismatch.check_effect(scenes.iter()).map_err(LoadError::from)?)
     }
 
     /// The trial of a run. Its array is calibrated.

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use crate::report::number::significant as number;
+use crate::report::tables::comparison::in_percent;
 use crate::study::compare::{Changes, FigureComparison, Outlook};
 
 /// The changes since an older report.
@@ -16,7 +17,7 @@ pub(super) fn changes_section(changes: &Changes) -> Markup {
                 (sentences(figures.iter()))
             }
             @if policies.is_empty() { p { "The older report has none of these runs." } }
-            @if *unmatched > 0 { p { (unmatched) " runs are not in the older report." } }
+            @if *unmatched > 0 { p { (unmatched) @if *unmatched == 1 { " run is" } @else { " runs are" } " not in the older report." } }
         }
     }
 }
@@ -31,12 +32,13 @@ pub(super) fn sentences<'f>(figures: impl Iterator<Item = &'f FigureComparison>)
         @if shown.peek().is_some() {
             ul.changes { @for figure in shown { li { (sentence(figure)) } } }
         }
-        @if same > 0 { p { (same) " figures are the same in all pairs of runs." } }
+        @if same > 0 { p { (same) @if same == 1 { " figure is" } @else { " figures are" } " the same in all pairs of runs." } }
     }
 }
 
 fn sentence(figure: &FigureComparison) -> Markup {
-    let FigureComparison { figure: name, pairs, first, mean, difference, wins, losses, outlook, .. } = figure;
+    let FigureComparison { figure: name, pairs, first, mean, difference, wins, losses, outlook, .. } =
+        &*in_percent(figure);
     let (verb, size) = if difference.mean < 0.0 { ("fell", -difference.mean) } else { ("rose", difference.mean) };
     let interval = difference.interval.map(|[low, high]| {
         let sign = if difference.mean < 0.0 { -1.0 } else { 1.0 };
@@ -61,6 +63,15 @@ mod tests {
 
     use super::*;
     use crate::study::compare::FIGURES;
+
+    #[test]
+    fn one_figure_is_in_the_singular() {
+        let figure = |name: &str| FIGURES.iter().find(|figure| figure.name == name).unwrap();
+        let same = |name: &str| FigureComparison::new(figure(name), "b.fsm", vec![(1.0, 1.0)]).unwrap();
+        let (one, two) = ([same("coverage")], [same("coverage"), same("path_m")]);
+        assert!(sentences(one.iter()).into_string().contains("1 figure is the same"));
+        assert!(sentences(two.iter()).into_string().contains("2 figures are the same"));
+    }
 
     #[test]
     fn a_change_is_a_sentence_with_its_interval_in_the_direction_of_the_verb() {

@@ -5,7 +5,7 @@ use maud::html;
 use super::changes::sentences;
 use super::document::page;
 use super::table::{Judgement, PageTable};
-use crate::report::tables::comparison::{figures_table, runs_table};
+use crate::report::tables::comparison::{figures_table, incomplete_table, runs_table};
 use crate::results::Provenance;
 use crate::study::compare::{Comparison, FigureComparison, Outlook};
 
@@ -25,11 +25,18 @@ pub fn comparison_page(provenance: &Provenance, comparison: &Comparison) -> Stri
     };
     let sections = html! {
         section { h2 { "Runs" } (PageTable::new("runs", &runs_table(comparison)).markup()) }
+        @if let Some(incomplete) = incomplete_table(comparison) {
+            section {
+                h2 { "Runs that did not complete" }
+                p { "If such a run did not meet its stop condition, only " code { "completed %" } " counts of its figures." }
+                (PageTable::new("incomplete", &incomplete).markup())
+            }
+        }
         @for other in comparison.policies.iter().skip(1) {
             section {
                 h2 { (other.policy) }
                 (sentences(of(comparison, &other.policy)))
-                p { "The figure " code { "completed" } " is over all runs, and every other one is over the runs in which both policies met the stop condition." }
+                p { "The figure " code { "completed %" } " is over all runs, and every other one is over the runs in which both policies met the stop condition." }
                 (figures(comparison, &other.policy).markup())
             }
         }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::results::{CalibrationKind, JitterRecord, MismatchRecord, Provenance, SeedRange};
+use crate::results::{CalibrationKind, InputHash, JitterRecord, MismatchRecord, Provenance, SeedRange};
 
 /// Number of scenes that a title names.
 const SCENES_NAMED: usize = 3;
@@ -34,18 +34,22 @@ pub(super) fn origin(provenance: &Provenance) -> Markup {
         jitter,
         mismatches,
         calibrations,
+        hashes,
     } = provenance;
     let simulators: Vec<String> = simulators.iter().map(ToString::to_string).collect();
     html! {
         section id="origin" {
             h2 { "How to repeat this" }
+            p { (place(commit.as_deref())) }
             pre.command { code { (command) } }
             dl.origin {
                 (entry("program", &format!("vibrissa {version}, commit {}", commit.as_deref().unwrap_or("unknown"))))
                 (entry("date", date))
                 (entry("simulator", &simulators.join(", ")))
                 (entry("policies", &policies.join(", ")))
+                (entry("hashes of policies", &hash_text(&hashes.policies)))
                 (entry("scenes", &scenes.join(", ")))
+                (entry("hashes of scenarios", &hash_text(&hashes.scenarios)))
                 (entry("seeds", &ranges(seeds)))
                 (entry("jitter of starts", &jitter.map_or_else(|| "none".to_owned(), jitter_text)))
                 @if mismatches.is_empty() { (entry("mismatch", "none: the simulated array is the assumed one")) }
@@ -58,6 +62,23 @@ pub(super) fn origin(provenance: &Provenance) -> Markup {
 
 fn entry(name: &str, text: &str) -> Markup {
     html! { @if !text.is_empty() { dt { (name) } dd { (text) } } }
+}
+
+fn hash_text(hashes: &[InputHash]) -> String {
+    hashes.iter().map(|InputHash { name, hash }| format!("{name} {hash}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Where the command repeats the result.
+fn place(commit: Option<&str>) -> String {
+    let repository = option_env!("CARGO_PKG_REPOSITORY").filter(|repository| !repository.is_empty());
+    let repository = repository.map_or_else(String::new, |repository| format!(" of {repository}"));
+    let checkout = match commit {
+        Some(commit) => format!("a checkout{repository} of commit {commit}"),
+        None => format!("the same checkout{repository}"),
+    };
+    format!(
+        "Run it in the root of {checkout}. Paths of files are relative to where it was first given. The hashes below are equal if all inputs are."
+    )
 }
 
 fn ranges(seeds: &[SeedRange]) -> String {
@@ -83,5 +104,5 @@ fn calibration_text(calibrations: &[CalibrationKind]) -> String {
 
 fn mismatch_text(MismatchRecord { file, seeds }: &MismatchRecord) -> String {
     let file = file.as_deref().unwrap_or("of the scene");
-    format!("{file}, seeds {}", ranges(seeds))
+    if seeds.is_empty() { file.to_owned() } else { format!("{file}, seeds {}", ranges(seeds)) }
 }
