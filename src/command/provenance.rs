@@ -162,7 +162,7 @@ mod tests {
             assert!(!shown.contains("first") && shown.contains(REPEATED), "{shown}");
         }
         assert_eq!(shown(&["run", "x", "--record", "a/b.mcap"]), "vibrissa run x --record repeated-b.mcap");
-        assert_eq!(shown(&["run", "x", "--record=repeated-b.mcap"]), "vibrissa run x --record=repeated-b.mcap");
+        assert_eq!(shown(&["run", "x", "--record=repeated-b.mcap"]), "vibrissa run x '--record=repeated-b.mcap'");
         // A merge reads what its parts wrote.
         let part = ["sweep", "a.yaml", "--shard", "1/2", "--out", "first"];
         assert_eq!(shown(&part), "vibrissa sweep a.yaml --shard 1/2 --out first");
