@@ -1,4 +1,4 @@
-//! Computes two own metrics from the trace of a run, and prints them beside the built-in score.
+//! Computes two own metrics from the trace of a run, and prints them beside the declared ones.
 //!
 //!     cargo run --no-default-features --example add_metric
 //!
@@ -10,10 +10,12 @@ use std::sync::Arc;
 
 use vibrissa::built_in::{DEFAULT_POLICY, SCENARIOS, TextFile};
 use vibrissa::diagnostic::{Colour, Diagnostic, Source, terminal};
+use vibrissa::figures::Metric;
 use vibrissa::run::Trace;
 use vibrissa::scene::WorldKind;
 use vibrissa::trial::Trial;
 use vibrissa::{policy, scenario};
+use vibrissa_runtime::units::format_si;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = scenario::read(&source(SCENARIOS[0])).map_err(|errors| shown(SCENARIOS[0], &errors))?;
@@ -23,11 +25,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let result = trial.run()?;
 
     let (trace, score) = (&result.run.trace, &result.score);
-    println!("built-in metrics");
-    if let Some(error) = score.error {
-        println!("  mean error             {:.3} mm", 1e3 * error.mean);
+    println!("declared metrics that scenarios can bound");
+    for metric in Metric::ALL.into_iter().filter(|metric| metric.figure().bound.is_some()) {
+        if let Some(value) = score.figure(metric) {
+            println!("  {:<22} {}", metric.name(), format_si(value, metric.figure().dimension()));
+        }
     }
-    println!("  coverage               {:.1} %", 100.0 * score.coverage);
     println!("own metrics");
     match mean_contact_duration(trace) {
         Some(duration) => println!("  mean contact duration  {duration:.2} s"),

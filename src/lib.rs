@@ -67,7 +67,7 @@
 //! | input texts and their errors | [`scenario`], [`policy`], [`outline`], [`diagnostic`], [`built_in`] |
 //! | scenes and exact geometry | [`scene`], [`solid`], [`geometry`], [`physics`] |
 //! | simulators | [`world`], [`mujoco`], [`quasi_static`] |
-//! | runs and their evaluation | [`request`], [`trial`], [`run`], [`score`], [`results`], [`inspect`], `recording`, `video` |
+//! | runs and their evaluation | [`request`], [`trial`], [`run`], [`figures`], [`score`], [`results`], [`inspect`], `recording`, `video` |
 //! | many runs | [`study`], [`family`], [`sweep`], [`tune`] |
 //! | tables, pages and pictures | [`report`] |
 //! | measured whiskers | [`calibration`] |
@@ -112,7 +112,7 @@ pub mod services;
 #[cfg(any(feature = "render", feature = "viewer"))]
 pub mod video;
 
-pub use vibrissa_declare::catalogue;
+pub use vibrissa_declare::{catalogue, figures};
 #[cfg(feature = "recording")]
 pub use vibrissa_lab::recording;
 pub use vibrissa_lab::{

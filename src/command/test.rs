@@ -16,6 +16,7 @@ use super::progress::Progress;
 use super::provenance::{of_runs, of_trials};
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
 use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar};
+use vibrissa_declare::figures::Metric;
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, WithoutEffect, with_settings};
 use vibrissa_lab::property::Regressions;
 use vibrissa_lab::results::{Document, RunResult};
@@ -299,7 +300,7 @@ fn trial_of(
 /// reported.
 fn print_verdict(source: &Source, test: &PolicyTest, result: &RunResult, faults: &[Diagnostic]) -> Result<(), Failure> {
     let verdict = if faults.is_empty() { "ok    " } else { "FAILED" };
-    let RunResult { sim_s, wall_s, .. } = result;
+    let (sim_s, wall_s) = (result.figure(Metric::SimulatedTime).unwrap_or_default(), result.wall_s);
     output::result(format_args!("{verdict} {}: {} ({sim_s:.1} s in {wall_s:.2} s)", source.name, test.title))?;
     if !faults.is_empty() {
         trials::report_events(result);

@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::options::Jobs;
 use super::output;
 use super::progress::Progress;
+use vibrissa_declare::figures::Metric;
 use vibrissa_lab::load::GivenMismatch;
 use vibrissa_lab::report::{RunFigures, retrieval_picture};
 use vibrissa_lab::results::{
@@ -259,15 +260,17 @@ pub(super) fn report_violations(scene: &str, result: &TrialResult) {
 /// Prints the notable events of a run.
 pub(super) fn report_events(result: &RunResult) {
     let RunResult { scenario, outcome, collisions, inclination, out_of_plane, .. } = result;
+    let figure = |metric| result.figure(metric).unwrap_or(f64::NAN);
     if let Some(explanation) = result.explanation() {
         output::message(format_args!("{scenario}: {outcome}: {explanation}"));
     }
     report_dead_whiskers(scenario, result);
-    if collisions.count > 0 {
-        let Collisions { count, time_s, first_s, first_state, first_position_m } = collisions;
+    if result.collided() {
+        let [count, time_s] = [Metric::Collisions, Metric::CollisionTime].map(figure);
+        let Collisions { first_s, first_state, first_position_m, .. } = collisions;
         let [x, y] = first_position_m.unwrap_or([f64::NAN; 2]);
         let (first_s, state) = (first_s.unwrap_or(f64::NAN), first_state.as_deref().unwrap_or("no state"));
-        let times = if *count == 1 { "once".to_owned() } else { format!("{count} times, first") };
+        let times = if count > 1.0 { format!("{count} times, first") } else { "once".to_owned() };
         output::message(format_args!(
             "{scenario}: the platform's body collided {times} at {first_s:.2} s in {state}, with its centre at ({x:.3} m, {y:.3} m); \
              {time_s:.1} s in contact"
@@ -275,10 +278,12 @@ pub(super) fn report_events(result: &RunResult) {
     }
     // A planar simulation keeps every whisker in the plane.
     if let (Some(inclination), Some(_)) = (inclination, out_of_plane)
-        && let Inclination { margin_rad, whisker: Some(whisker), time_s, state, beyond_s, .. } = inclination
-        && *beyond_s > 0.0
+        && let Inclination { whisker: Some(whisker), time_s, state, .. } = inclination
+        && let beyond_s = figure(Metric::InclinationBeyond)
+        && beyond_s > 0.0
     {
-        let (state, excess) = (state.as_deref().unwrap_or("no state"), -margin_rad.to_degrees());
+        let state = state.as_deref().unwrap_or("no state");
+        let excess = -figure(Metric::InclinationMargin).to_degrees();
         output::message(format_args!(
             "{scenario}: whiskers were beyond the limit of the inclination for {beyond_s:.1} s, at most by {excess:.0} deg: \
              {whisker} at {time_s:.2} s in {state}; a round whisker leaves the plane there"

@@ -1,6 +1,7 @@
 //! What is said of a test that a policy carries, as a user sees it: one fixture a kind, one snapshot a fixture.
 
 use crate::snapshots::snapshots;
+use vibrissa_declare::figures::Metric;
 use vibrissa_language::{RunFigure, compile_with_warnings};
 use vibrissa_text::diagnostic::{Colour, Diagnostic, Source, terminal};
 
@@ -15,27 +16,13 @@ fn an_expectation_that_does_not_hold_is_shown_with_what_was_measured() {
     // A run that ended as the policy has it, and has no tips.
     let figure = |figure| match figure {
         RunFigure::Failed | RunFigure::Visits(_) => 1.0,
-        RunFigure::TimeIn(_) | RunFigure::Time => 5.1,
+        RunFigure::TimeIn(_) | RunFigure::Metric(Metric::SimulatedTime) => 5.1,
         RunFigure::Passed
         | RunFigure::Completed
         | RunFigure::TimedOut
         | RunFigure::Diverged
-        | RunFigure::Coverage
-        | RunFigure::Retrievals
-        | RunFigure::Collisions => 0.0,
-        RunFigure::ErrorMean
-        | RunFigure::RetrievalRadius
-        | RunFigure::RetrievalDistance
-        | RunFigure::AxisMean
-        | RunFigure::ErrorP95
-        | RunFigure::ErrorMax
-        | RunFigure::Outliers
-        | RunFigure::Hausdorff
-        | RunFigure::CornerPlaceMax
-        | RunFigure::CornerTimeMax
-        | RunFigure::CornerPathMax
-        | RunFigure::InclinationBeyond
-        | RunFigure::Plot(..) => f64::NAN,
+        | RunFigure::Metric(Metric::Coverage | Metric::Retrievals | Metric::Collisions) => 0.0,
+        RunFigure::Metric(_) | RunFigure::Plot(..) => f64::NAN,
     };
     let faults = test.expectations.iter().filter_map(|expectation| expectation.violation(&program, figure));
     let faults: Vec<Diagnostic> = faults.collect();

@@ -8,6 +8,7 @@ use crate::seen::{apart, see};
 use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::Source;
+use vibrissa::figures::Metric;
 use vibrissa::geometry::{Contour, Point2, circle};
 use vibrissa::report::{picture, results_table, retrieval_picture};
 use vibrissa::results::{Ending, Hashes, Identity, RunResult};
@@ -102,11 +103,12 @@ fn retrieved() -> Run {
 #[test]
 fn a_result_tells_of_retrievals_and_a_picture_shows_them() {
     let run = retrieved();
-    let retrieval = result(&run).retrieval.unwrap();
-    assert_eq!(retrieval.count, 2);
+    let result = result(&run);
+    assert_eq!(result.figure(Metric::Retrievals), Some(2.0));
     // The platform of these runs goes at 50 mm/s.
-    assert!((retrieval.distance_mm.mean.unwrap() - 62.5).abs() < 1e-9);
-    assert!((retrieval.time_s.mean.unwrap() - 1.25).abs() < 1e-9 && retrieval.radius_mm.std.unwrap() > 0.0);
+    let figure = |metric| result.figure(metric).unwrap();
+    assert!((figure(Metric::RetrievalDistance) - 62.5).abs() < 1e-9);
+    assert!((figure(Metric::RetrievalTime) - 1.25).abs() < 1e-9 && figure(Metric::RetrievalRadiusStd) > 0.0);
     let picture = draw(&scene(), "thesis", &run);
     texts_stand_clear(&picture);
     assert!(picture.contains("edge lost") && picture.contains("contact found again") && picture.contains("retrievals"));
@@ -119,10 +121,9 @@ fn a_table_has_columns_for_corners_and_collisions_only_where_a_run_has_them() {
     assert!(!bare.contains("corners") && !bare.contains("collisions") && !bare.contains("retrieval"), "{bare}");
     let mut run = retrieved();
     run.trace.ticks[9].body_touches = true;
-    let mut square = result(&run);
     let outline = vibrissa::geometry::regular_polygon(Point2::origin(), 0.3, 4, 0.0).unwrap();
     let score = Score::new(&run, &outline.into(), &Rig::default());
-    square.corners = RunResult::new(identity(), &run, &score, &[]).corners;
+    let square = RunResult::new(identity(), &run, &score, &[]);
     let full = results_table(&[result(&half_round()), square]).wide();
     assert!(full.contains(" of 4") && full.contains("collisions") && full.contains("retrieval"), "{full}");
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use vibrissa_declare::catalogue::{Entry, Parameter};
+use vibrissa_declare::figures::Metric;
 use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::machine::{
     BodyScalar, ContourVector, Op, Program, Register, Senses, WhiskerScalar, WhiskerVector, compute,
@@ -104,38 +105,8 @@ pub enum RunFigure {
     TimedOut,
     /// True if the simulation diverged.
     Diverged,
-    /// Simulated time (s).
-    Time,
-    /// Mean distance of the recorded tips from the object (m).
-    ErrorMean,
-    /// 95th percentile of these distances (m).
-    ErrorP95,
-    /// Maximum of these distances (m).
-    ErrorMax,
-    /// Share of the recorded tips whose error exceeds 0.1 mm plus four of their standard deviations (0 to 1).
-    Outliers,
-    /// Hausdorff distance between the object and the estimated contour (m).
-    Hausdorff,
-    /// Share of the object's contour that was traced (0 to 1).
-    Coverage,
-    /// Number of retrievals.
-    Retrievals,
-    /// Mean retrieval radius (m).
-    RetrievalRadius,
-    /// Mean retrieval distance (m).
-    RetrievalDistance,
-    /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
-    AxisMean,
-    /// Maximum distance of an estimated corner from the exact one (m).
-    CornerPlaceMax,
-    /// Maximum time for a corner (s).
-    CornerTimeMax,
-    /// Maximum path length of the platform for a corner (m).
-    CornerPathMax,
-    /// Number of collisions of the platform's body.
-    Collisions,
-    /// Time beyond the limit of the inclination, added over all whiskers (s).
-    InclinationBeyond,
+    /// A figure that tests can read (SI).
+    Metric(Metric),
     /// Number of entries of the state with this index.
     Visits(usize),
     /// Total time in the state with this index (s).
@@ -167,21 +138,9 @@ impl RunFigure {
                 let shown = kind.and_then(|kind| kind.read(&[value], &program.whiskers));
                 shown.map_or_else(String::new, |shown| shown.to_string())
             }
-            Self::Time | Self::TimeIn(_) | Self::CornerTimeMax | Self::InclinationBeyond => {
-                format_si(value, Dimension::TIME)
-            }
-            Self::ErrorMean
-            | Self::ErrorP95
-            | Self::ErrorMax
-            | Self::Hausdorff
-            | Self::RetrievalRadius
-            | Self::RetrievalDistance
-            | Self::AxisMean
-            | Self::CornerPlaceMax
-            | Self::CornerPathMax => format_si(value, Dimension::LENGTH),
-            Self::Outliers | Self::Coverage | Self::Retrievals | Self::Collisions | Self::Visits(_) => {
-                format_si(value, Dimension::NUMBER)
-            }
+            Self::Metric(metric) => format_si(value, metric.figure().dimension()),
+            Self::TimeIn(_) => format_si(value, Dimension::TIME),
+            Self::Visits(_) => format_si(value, Dimension::NUMBER),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
+use vibrissa::figures::Metric;
 use vibrissa::policy::{compile, gather};
 use vibrissa::report::{picture, results_table};
 use vibrissa::scenario;
@@ -33,11 +34,12 @@ fn every_recorded_tip_is_the_true_one_and_the_result_says_so() {
     let result = trial.run().unwrap();
     assert_eq!(result.run.outcome, Outcome::Completed, "{:?}", result.run.reason);
     let document = trial.document(&result);
-    assert!(document.true_tips && document.error_mm.n > 500);
+    let figure = |metric| document.figure(metric).unwrap();
+    assert!(document.true_tips && figure(Metric::Tips) > 500.0);
     // The score computes the true tips by itself.
-    let off = document.tip_error_mm.unwrap();
-    assert!(off.along.max < 1e-9 && off.across.max < 1e-9, "{off:?}");
-    assert!(document.error_mm.max.unwrap() < 1e-3 && document.error_mm.within_band == Some(1.0));
+    let off = [Metric::AlongMax, Metric::AcrossMax].map(figure);
+    assert!(off.iter().all(|off| *off < 1e-9), "{off:?}");
+    assert!(figure(Metric::ErrorMax) < 1e-3 && document.figure(Metric::IntervalCoverage) == Some(1.0));
     let table = results_table(std::slice::from_ref(&document)).wide();
     assert!(table.contains("(true tips)"), "{table}");
     let picture = picture(&trial.scene, &trial.policy_label(), &result.run, &result.score);

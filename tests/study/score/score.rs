@@ -4,8 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
+use vibrissa::figures::Metric;
 use vibrissa::geometry::{Contour, ContourSet, Piece, Point2, Pose, TunnelAxis, circle, polygon, unit};
-use vibrissa::scene::{Metric, Truth};
+use vibrissa::scene::Truth;
 use vibrissa::score::{
     COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, CoverageTracker, Estimate, HAUSDORFF_TOLERANCE, MAX_STEP, Score, coverage,
     object_coverage, outline_coverages,
@@ -74,7 +75,7 @@ proptest! {
         let (reference, pose) = (disk(0.05), Pose { position: Point2::new(x, y), heading });
         let here = score(std::slice::from_ref(&tips), &reference);
         let there = score(&[moved(&tips, &pose)], &reference.transformed(&pose));
-        for metric in Metric::ALL {
+        for metric in Metric::ALL.into_iter().filter(|metric| metric.figure().name.is_some()) {
             let (a, b) = (here.figure(metric), there.figure(metric));
             // A disk has no corners, nor an axis, and these runs no marks.
             prop_assert_eq!(a.is_some(), b.is_some());
@@ -85,7 +86,7 @@ proptest! {
                 Metric::Hausdorff => HAUSDORFF_TOLERANCE,
                 _ => 1e-12,
             };
-            prop_assert!((a - b).abs() <= tolerance, "{}: {a} and {b}", metric.name());
+            prop_assert!((a - b).abs() <= tolerance, "{metric:?}: {a} and {b}");
         }
     }
 

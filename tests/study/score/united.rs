@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use vibrissa::built_in::DEFAULT_POLICY;
 use vibrissa::diagnostic::Source;
+use vibrissa::figures::Metric;
 use vibrissa::policy::{compile, gather};
 use vibrissa::scenario;
-use vibrissa::scene::{Metric, Outcome, Scene, WorldKind};
+use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::trial::{Trial, TrialResult};
 
 /// Two boxes, the second of which reaches on from within the first; together they are the box of the bench.

@@ -7,31 +7,40 @@ use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, circle};
 use vibrissa::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use vibrissa::results::{
-    Ending, Hashes, Identity, LargestError, MeanStd, MismatchIdentity, Provenance, Retrieval, RunResult,
-};
+use vibrissa::results::{Ending, Hashes, Identity, LargestError, MismatchIdentity, Provenance, RunResult};
 use vibrissa::scenario;
-use vibrissa::score::Score;
+use vibrissa::score::{ErrorFigures, Moments, RetrievalFigures, Score};
 use vibrissa::study::bench::{BASELINE, BenchRow, Conditions, Verdict};
 use vibrissa_runtime::rig::Rig;
 
 /// The result of a run once round a disk, `off` (m) outside of it, as that of a scenario.
 fn result(scenario: &str, off: f64) -> RunResult {
+    scored(scenario, off, |_| {})
+}
+
+/// The same result after a `change` of the score.
+fn scored(scenario: &str, off: f64, change: impl FnOnce(&mut Score)) -> RunResult {
     let run = run_with(&[arc_of_tips(0.03 + off, 0.0, TAU, 0.05 / 30.0)]);
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
     let identity =
         Identity { scenario, policy, true_tips: false, world, seed: 0, mismatch: None, calibration: None, hash };
-    let score = Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default());
+    let mut score = Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default());
+    change(&mut score);
     RunResult::new(identity, &run, &score, &[])
 }
 
-fn spread(mean: f64) -> MeanStd {
-    MeanStd { mean: Some(mean), std: Some(0.1) }
+/// The result with another outcome.
+fn with(outcome: Ending, mut result: RunResult) -> RunResult {
+    result.outcome = outcome;
+    result
 }
 
-fn retrieval(radius: MeanStd) -> Retrieval {
-    Retrieval { count: 4, radius_mm: radius, distance_mm: spread(200.0), time_s: spread(3.0) }
+/// The result of a run in the box with retrievals of this mean radius (m).
+fn retrieved(radius: f64) -> RunResult {
+    let moments = |mean| Some(Moments { mean, std: Some(1e-4) });
+    let retrieval = RetrievalFigures { count: 4, radius: moments(radius), distance: moments(0.2), time: moments(3.0) };
+    scored("box", 0.0, |score| score.retrieval = Some(retrieval))
 }
 
 #[test]
@@ -42,21 +51,16 @@ fn a_figure_is_better_up_to_the_baselines_and_worse_beyond() {
             assert_eq!(row.verdicts.error_mm, Some(verdict), "{}", figures.scenario);
         }
     }
-    let mut boxed = result("box", 0.0);
-    boxed.retrieval = Some(retrieval(spread(11.3)));
-    let row = BenchRow::new(boxed.clone());
+    let row = BenchRow::new(retrieved(0.0113));
     assert_eq!((row.verdicts.radius_mm, row.passed), (Some(Verdict::Worse), false));
-    boxed.retrieval = Some(retrieval(spread(11.1)));
-    assert!(BenchRow::new(boxed).passed);
+    assert!(BenchRow::new(retrieved(0.0111)).passed);
 }
 
 #[test]
 fn shares_are_pooled_over_tips_and_not_over_scenes() {
-    let row = |scenario: &str, tips: usize, outliers: f64, within_band: f64| {
-        let mut result = result(scenario, 0.0);
-        result.error_mm.n = tips;
-        (result.error_mm.outliers, result.error_mm.within_band) = (Some(outliers), Some(within_band));
-        BenchRow::new(result)
+    let row = |scenario: &str, count: usize, outliers: f64, interval_coverage: f64| {
+        let change = |error| ErrorFigures { count, outliers, interval_coverage, ..error };
+        BenchRow::new(scored(scenario, 0.0, |score| score.error = score.error.map(change)))
     };
     let told = pooled_tips(&[row("disk", 100, 0.04, 0.6), row("box", 300, 0.0, 1.0)]);
     assert_eq!(told, "thesis: 400 tips, 1.000 % outliers, 90.0 % within their 95 % interval");
@@ -66,9 +70,8 @@ fn shares_are_pooled_over_tips_and_not_over_scenes() {
 fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
     let good = result("disk", 1e-4);
     assert!(BenchRow::new(good.clone()).passed);
-    assert!(!BenchRow::new(RunResult { outcome: Ending::Timeout, ..good.clone() }).passed);
-    let mut nothing = good.clone();
-    nothing.error_mm.mean = None;
+    assert!(!BenchRow::new(with(Ending::Timeout, good)).passed);
+    let nothing = scored("disk", 1e-4, |score| score.error = None);
     assert_eq!(BenchRow::new(nothing).verdicts.error_mm, Some(Verdict::Worse));
     let tunnel = BenchRow::new(result("smooth-tunnel", 1e-4));
     assert_eq!(
@@ -76,8 +79,8 @@ fn a_run_that_does_not_complete_or_measures_nothing_does_not_pass() {
         (Some(Verdict::Worse), false),
         "it was never between both walls"
     );
-    let mut not_a_number = good;
-    not_a_number.error_mm.mean = Some(f64::NAN);
+    let unknown = |error| ErrorFigures { mean: f64::NAN, ..error };
+    let not_a_number = scored("disk", 1e-4, |score| score.error = score.error.map(unknown));
     assert!(!BenchRow::new(not_a_number).passed);
 }
 
@@ -98,7 +101,7 @@ fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
     assert!(hard.passed && bench_table(&[hard]).wide().contains("disk, friction 0.3, noise"));
     // A run that ended without what its scene expects has not completed.
     for outcome in [Ending::Ended, Ending::Failed] {
-        let row = BenchRow { result: RunResult { outcome, ..worse.result.clone() }, ..worse.clone() };
+        let row = BenchRow { result: with(outcome, worse.result.clone()), ..worse.clone() };
         assert!(!row.under(conditions).passed, "{outcome}");
     }
 }

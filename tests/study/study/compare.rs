@@ -13,15 +13,15 @@ use vibrissa::results::{Hashes, Identity, RunResult};
 use vibrissa::scenario;
 use vibrissa::scene::{Jitter, Outcome, Scene};
 use vibrissa::score::Score;
-use vibrissa::study::compare::{Comparison, FIGURES, Figure, FigureComparison, Outlook};
+use vibrissa::study::compare::{Comparison, Figure, FigureComparison, Outlook, figures};
 use vibrissa_runtime::rig::Rig;
 
-fn figure(name: &str) -> &'static Figure {
-    FIGURES.iter().find(|figure| figure.name == name).unwrap()
+fn figure(name: &str) -> Figure {
+    figures().into_iter().find(|figure| figure.name == name).unwrap()
 }
 
 fn compared(name: &str, pairs: &[(f64, f64)]) -> FigureComparison {
-    FigureComparison::new(figure(name), "other", pairs.to_vec()).unwrap()
+    FigureComparison::new(&figure(name), "other", pairs.to_vec()).unwrap()
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn less_is_better_but_for_coverage() {
     assert_eq!(compared("sim_s", &[(1.0, 1.0), (2.0, 2.0)]).outlook, Outlook::Same);
     assert_eq!(compared("sim_s", &[(1.0, 0.0), (2.0, 3.5)]).outlook, Outlook::Open);
     assert_eq!(compared("sim_s", &[(1.0, f64::NAN), (2.0, 3.5)]).pairs, 1);
-    assert_eq!(FigureComparison::new(figure("sim_s"), "other", vec![(f64::NAN, 1.0)]), None);
+    assert_eq!(FigureComparison::new(&figure("sim_s"), "other", vec![(f64::NAN, 1.0)]), None);
 }
 
 /// A result of the run with this seed, which took so many ticks.

@@ -3,17 +3,16 @@
 use serde::Serialize;
 
 use super::run_result::state_name;
+use super::section::Section;
 use crate::run::Trace;
-use crate::score;
+use crate::score::Score;
 
 /// Contacts of the platform's body.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Collisions {
-    /// Number of separate contacts.
-    pub count: usize,
-    /// Time in contact.
-    pub time_s: f64,
+    #[serde(flatten)]
+    pub(super) figures: Section<6>,
     /// Time of the first contact.
     pub first_s: Option<f64>,
     /// Name of the active state at the first contact.
@@ -23,11 +22,14 @@ pub struct Collisions {
 }
 
 impl Collisions {
-    pub(super) fn new(figures: &score::Collisions, trace: &Trace) -> Self {
-        let first = figures.first;
+    pub(super) fn none() -> Self {
+        Self { figures: Section::empty(), first_s: None, first_state: None, first_position_m: None }
+    }
+
+    pub(super) fn new(score: &Score, trace: &Trace) -> Self {
+        let first = score.collisions.first;
         Self {
-            count: figures.count,
-            time_s: figures.time,
+            figures: Section::of(score),
             first_s: first.map(|contact| contact.time),
             first_state: first.and_then(|contact| state_name(trace, contact.state)),
             first_position_m: first.map(|contact| contact.position.coords.into()),

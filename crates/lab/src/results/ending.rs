@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::run::Run;
 use crate::score::Score;
-use vibrissa_world::scene::{Expectation, Metric, Outcome, Violation};
+use vibrissa_declare::figures::Metric;
+use vibrissa_world::scene::{Expectation, Outcome, Violation};
 
 /// The outcome of a run, judged by the expectations of its scenario.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

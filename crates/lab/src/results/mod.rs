@@ -14,6 +14,7 @@ mod rate;
 mod refused;
 mod replay_result;
 mod run_result;
+mod section;
 mod shown_value;
 mod tally;
 mod tick_line;
@@ -36,10 +37,8 @@ pub use provenance::{
 pub use rate::Rate;
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub use run_result::marked;
-pub use run_result::{
-    Corners, ErrorMm, Hashes, Identity, MeanP95Max, MeanStd, MeanStdMax, MismatchIdentity, OutOfPlane, Passage,
-    Retrieval, RunResult, TickUs, TipErrorMm, policy_label,
-};
+pub use run_result::{Hashes, Identity, MismatchIdentity, OutOfPlane, RunResult, policy_label};
+pub use section::figure_in;
 pub use shown_value::{ShownNumber, ShownValue};
 pub use tally::{Figures, Rates, Tally, TipShares};
 pub use tick_line::{MessageLine, MessageValueLine, OutOfPlaneLine, PlotLine, TickLine, tick_lines};

@@ -1,7 +1,8 @@
 //! The result of a run that could not begin.
 
 use super::ending::Ending;
-use super::{Collisions, ErrorMm, Failsafes, Identity, RunResult, TickUs};
+use super::section::Section;
+use super::{Collisions, Failsafes, Identity, RunResult};
 
 impl RunResult {
     /// The result of a run that could not begin for this `reason`.
@@ -21,33 +22,25 @@ impl RunResult {
             passed_but_for_tips: false,
             reason: Some(reason),
             final_state: String::new(),
-            sim_s: 0.0,
+            duration: Section::empty(),
             start_s: 0.0,
             wall_s: 0.0,
             realtime: None,
-            error_mm: ErrorMm { mean: None, std: None, p95: None, max: None, within_band: None, outliers: None, n: 0 },
+            errors: Section::empty(),
             largest_error: None,
-            tip_error_mm: None,
-            coverage: 0.0,
-            object_coverage: 0.0,
+            traced: Section::empty(),
             outline_coverages: Vec::new(),
-            out_of_reach: 0.0,
-            coverage_in_reach: 0.0,
-            passage: None,
-            hausdorff_mm: None,
+            reached: Section::empty(),
             failsafes: Failsafes::default(),
             contracts: Vec::new(),
-            retrieval: None,
-            axis_mm: None,
-            corners: None,
+            passed: Section::empty(),
             states: Vec::new(),
-            path_m: 0.0,
-            path_ratio: 0.0,
-            collisions: Collisions::default(),
+            path: Section::empty(),
+            collisions: Collisions::none(),
             out_of_plane: None,
             inclination: None,
             whiskers: Vec::new(),
-            tick_us: TickUs { mean: None, p99: None, max: None },
+            latency: Section::empty(),
             hash,
         }
     }

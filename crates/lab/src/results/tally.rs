@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{Ending, Rate, RunResult};
 use crate::score::Statistics;
+use vibrissa_declare::figures::Metric;
 
 /// The figures of a run that are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,10 +37,16 @@ pub struct TipShares {
 }
 
 impl TipShares {
+    /// The counts of one run, by its figures.
+    #[must_use]
+    pub(crate) fn of_figures(figure: impl Fn(Metric) -> Option<f64>) -> Self {
+        let count = figure(Metric::Tips).unwrap_or(0.0);
+        Self::of_run(count, figure(Metric::Outliers), figure(Metric::IntervalCoverage))
+    }
+
     /// The counts of one run, by its shares (0 to 1) of `count` tips.
     #[must_use]
-    pub(crate) fn of_run(count: usize, outliers: Option<f64>, within_band: Option<f64>) -> Self {
-        let count = count as f64;
+    pub(crate) fn of_run(count: f64, outliers: Option<f64>, within_band: Option<f64>) -> Self {
         Self { count, outliers: count * outliers.unwrap_or(0.0), within_band: count * within_band.unwrap_or(0.0) }
     }
 
@@ -67,17 +74,26 @@ impl std::iter::Sum for TipShares {
 }
 
 impl Figures {
+    /// The figures of a run that does not pass, by its figures in the units of their keys.
+    pub(crate) fn of(ending: Ending, figure: impl Fn(Metric) -> Option<f64>) -> Self {
+        Self {
+            ending,
+            passed: false,
+            passed_but_for_tips: false,
+            collided: figure(Metric::Collisions).is_some_and(|count| count > 0.0),
+            error_mean_mm: figure(Metric::ErrorMean),
+            error_p95_mm: figure(Metric::ErrorP95),
+            tips: TipShares::of_figures(figure),
+        }
+    }
+
     /// The figures of a run.
     #[must_use]
     pub fn new(result: &RunResult) -> Self {
         Self {
-            ending: result.outcome,
             passed: result.violations.is_empty(),
             passed_but_for_tips: result.passed_but_for_tips,
-            collided: result.collisions.count > 0,
-            error_mean_mm: result.error_mm.mean,
-            error_p95_mm: result.error_mm.p95,
-            tips: TipShares::of_run(result.error_mm.n, result.error_mm.outliers, result.error_mm.within_band),
+            ..Self::of(result.outcome, |metric| result.figure(metric))
         }
     }
 }

@@ -11,6 +11,7 @@ mod coverage_tracker;
 mod error;
 mod estimate;
 mod excursion;
+mod figure;
 mod hausdorff;
 mod inclination;
 mod latency;

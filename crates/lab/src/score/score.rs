@@ -7,11 +7,13 @@ use super::{
 };
 use crate::run::Run;
 use vibrissa_runtime::rig::Rig;
-use vibrissa_world::scene::{Metric, Truth};
+use vibrissa_world::scene::Truth;
 
 /// All metrics of a run. Lengths are in metres, times in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Score {
+    /// Simulated time (s).
+    pub time: f64,
     /// Errors of the tip estimates. `None` without recorded tips.
     pub error: Option<ErrorFigures>,
     /// The tip estimate with the largest error. `None` without recorded tips.
@@ -63,6 +65,7 @@ impl Score {
         let path = body_path(&run.trace.ticks);
         let outlines = outline_coverages(&estimate, &truth.reference);
         Self {
+            time: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
             error: ErrorFigures::of(&tips),
             largest_error: tips.iter().max_by(|a, b| a.error.total_cmp(&b.error)).copied(),
             coverage: coverage(&estimate, &truth.reference),
@@ -89,38 +92,5 @@ impl Score {
     #[must_use]
     pub fn coverage_in_reach(&self) -> f64 {
         (self.coverage / (1.0 - self.out_of_reach)).min(1.0)
-    }
-
-    /// The figures of corners, if all sharp corners were traced. Otherwise `None`, because a corner that was not found
-    /// is worse than any other.
-    fn all_corners(&self) -> Option<CornerFigures> {
-        self.corners.filter(|corners| corners.traced == corners.count)
-    }
-
-    /// The value of a metric (SI units), for an expectation. `None` if the run has none.
-    #[must_use]
-    pub fn figure(&self, metric: Metric) -> Option<f64> {
-        match metric {
-            Metric::ErrorMean => self.error.map(|error| error.mean),
-            Metric::ErrorP95 => self.error.map(|error| error.p95),
-            Metric::ErrorMax => self.error.map(|error| error.max),
-            Metric::Hausdorff => self.hausdorff,
-            Metric::IntervalCoverage => self.error.map(|error| error.interval_coverage),
-            Metric::Outliers => self.error.map(|error| error.outliers),
-            Metric::Coverage => Some(self.coverage),
-            Metric::ObjectCoverage => Some(self.object_coverage),
-            Metric::Passage => self.passage.map(|passage| passage.share),
-            Metric::WallCoverage => self.passage.map(|passage| passage.wall_coverage()),
-            Metric::RetrievalRadius => self.retrieval?.radius.map(|radius| radius.mean),
-            Metric::RetrievalDistance => self.retrieval?.distance.map(|distance| distance.mean),
-            Metric::AxisMean => self.axis.map(|axis| axis.mean),
-            Metric::CornerPlaceMax => self.all_corners()?.place.map(|place| place.max),
-            Metric::CornerTimeMax => self.all_corners()?.time.map(|time| time.max),
-            Metric::CornerPathMax => self.all_corners()?.path.map(|path| path.max),
-            Metric::InclinationBeyond => self.inclination.as_ref().map(|inclination| inclination.beyond),
-            Metric::OutOfPlaneMax => Some(self.out_of_plane?.distance),
-            Metric::Slips => Some(self.out_of_plane?.slips as f64),
-            Metric::Collisions => Some(self.collisions.count as f64),
-        }
     }
 }

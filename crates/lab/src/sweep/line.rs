@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 
 use serde::de::Error as _;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use crate::results::{CalibrationIdentity, Ending, Figures, RunResult, TipShares};
+use crate::results::{CalibrationIdentity, Ending, Figures, RunResult, figure_in};
 use crate::sweep::SweepRun;
 
 use super::shard::run_name;
@@ -100,22 +101,8 @@ struct Counted {
     #[serde(default)]
     passed_but_for_tips: bool,
     outcome: Ending,
-    error_mm: Option<Errors>,
-    collisions: Option<Collisions>,
-}
-
-#[derive(Debug, Deserialize)]
-struct Errors {
-    mean: Option<f64>,
-    p95: Option<f64>,
-    within_band: Option<f64>,
-    outliers: Option<f64>,
-    n: usize,
-}
-
-#[derive(Debug, Deserialize)]
-struct Collisions {
-    count: usize,
+    #[serde(flatten)]
+    figures: Value,
 }
 
 /// The key and the figures of a run, read from its line.
@@ -123,17 +110,12 @@ struct Collisions {
 /// # Errors
 /// If it is not the line of a run, or if its two names of the run do not belong together.
 pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
-    let Counted { run, key, passed, passed_but_for_tips, outcome: ending, error_mm, collisions } =
-        serde_json::from_str(line)?;
+    let Counted { run, key, passed, passed_but_for_tips, outcome, figures } = serde_json::from_str(line)?;
     if run != run_name(&key) {
         return Err(serde_json::Error::custom(format!("`run` is `{run}`, which is not that of the key `{key}`")));
     }
-    let collided = collisions.is_some_and(|collisions| collisions.count > 0);
-    let tips = error_mm
-        .as_ref()
-        .map_or_else(TipShares::default, |errors| TipShares::of_run(errors.n, errors.outliers, errors.within_band));
-    let (error_mean_mm, error_p95_mm) = error_mm.map_or((None, None), |errors| (errors.mean, errors.p95));
-    Ok((key, Figures { ending, passed, passed_but_for_tips, collided, error_mean_mm, error_p95_mm, tips }))
+    let of_run = Figures::of(outcome, |metric| figure_in(&figures, metric));
+    Ok((key, Figures { passed, passed_but_for_tips, ..of_run }))
 }
 
 /// The calibration of a run, read from its line.

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::header::Header;
 use super::lines::Lines;
 use super::results::{self, ResultsError};
 use super::{Sweep, SweepRun};
-use crate::results::{Ending, LargestError};
+use crate::results::{Ending, LargestError, figure_in};
+use vibrissa_declare::figures::Metric;
 use vibrissa_text::file;
 
 /// The result of a run in short.
@@ -28,36 +30,19 @@ pub struct RunRow {
     pub reason: Option<String>,
     /// Description of the scene.
     pub about: Option<String>,
-    /// Share of the reference that was traced, 0 to 1.
-    pub coverage: Option<f64>,
     /// The tip estimate with the largest error.
     pub largest_error: Option<LargestError>,
     /// Descriptions of what did not hold. A file of an older program has none.
     #[serde(default)]
     pub violations: Vec<String>,
-    error_mm: Option<Errors>,
-    collisions: Option<Collisions>,
-}
-
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-struct Errors {
-    mean: Option<f64>,
-}
-
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-struct Collisions {
-    count: usize,
+    #[serde(flatten)]
+    figures: Value,
 }
 
 impl RunRow {
-    /// Mean and largest error of its tips (mm).
-    pub(crate) fn errors_mm(&self) -> [Option<f64>; 2] {
-        [self.error_mm.as_ref().and_then(|errors| errors.mean), self.largest_error.as_ref().map(|worst| worst.error_mm)]
-    }
-
-    /// Number of collisions of the body.
-    pub(crate) fn collision_count(&self) -> usize {
-        self.collisions.as_ref().map_or(0, |collisions| collisions.count)
+    /// A figure in the unit of its key. `None` if the run does not have it.
+    pub(crate) fn figure(&self, metric: Metric) -> Option<f64> {
+        figure_in(&self.figures, metric)
     }
 }
 

@@ -1,10 +1,11 @@
 //! The verdict of a policy's test on a run.
 
 use super::trial::TrialResult;
+use vibrissa_declare::figures::Kind;
 use vibrissa_language::{PlotFigure, PolicyTest, RunFigure};
 use vibrissa_runtime::machine::Program;
 use vibrissa_text::diagnostic::Diagnostic;
-use vibrissa_world::scene::{Metric, Outcome};
+use vibrissa_world::scene::Outcome;
 
 /// The expectations of a `test` or a property that do not hold for the `result` of `program`, and the contracts that it
 /// violated. Empty if the test passed.
@@ -20,29 +21,17 @@ pub fn violations(test: &PolicyTest, program: &Program, result: &TrialResult) ->
 fn figure(figure: RunFigure, program: &Program, result: &TrialResult) -> f64 {
     let TrialResult { run, score, violations } = result;
     let ended = |outcome| f64::from(u8::from(run.outcome == outcome));
-    let measured = |metric| score.figure(metric).unwrap_or(f64::NAN);
     match figure {
         RunFigure::Passed => f64::from(u8::from(violations.is_empty())),
         RunFigure::Completed => ended(Outcome::Completed),
         RunFigure::Failed => ended(Outcome::Failed),
         RunFigure::TimedOut => ended(Outcome::Timeout),
         RunFigure::Diverged => ended(Outcome::Diverged),
-        RunFigure::Time => run.trace.ticks.last().map_or(0.0, |tick| tick.time),
-        RunFigure::ErrorMean => measured(Metric::ErrorMean),
-        RunFigure::ErrorP95 => measured(Metric::ErrorP95),
-        RunFigure::ErrorMax => measured(Metric::ErrorMax),
-        RunFigure::Outliers => measured(Metric::Outliers),
-        RunFigure::Hausdorff => measured(Metric::Hausdorff),
-        RunFigure::Coverage => measured(Metric::Coverage),
-        RunFigure::Retrievals => score.retrieval.map_or(0.0, |retrieval| retrieval.count as f64),
-        RunFigure::RetrievalRadius => measured(Metric::RetrievalRadius),
-        RunFigure::RetrievalDistance => measured(Metric::RetrievalDistance),
-        RunFigure::AxisMean => measured(Metric::AxisMean),
-        RunFigure::CornerPlaceMax => measured(Metric::CornerPlaceMax),
-        RunFigure::CornerTimeMax => measured(Metric::CornerTimeMax),
-        RunFigure::CornerPathMax => measured(Metric::CornerPathMax),
-        RunFigure::InclinationBeyond => measured(Metric::InclinationBeyond),
-        RunFigure::Collisions => measured(Metric::Collisions),
+        RunFigure::Metric(metric) => score.figure(metric).unwrap_or(match metric.figure().kind {
+            // A policy without marks has no retrieval.
+            Kind::Count => 0.0,
+            _ => f64::NAN,
+        }),
         RunFigure::Visits(state) => {
             let mut was_active = false;
             let entered = run.trace.ticks.iter().filter(|tick| {

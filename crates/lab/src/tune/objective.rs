@@ -2,10 +2,8 @@
 
 use std::fmt;
 
-use vibrissa_runtime::units::Dimension;
-
 use crate::trial::TrialResult;
-use vibrissa_world::scene::Metric;
+use vibrissa_declare::figures::{Kind, Metric};
 
 /// The cost of a run that does not pass, before its share of progress counts.
 const FAILED: f64 = 10.0;
@@ -13,21 +11,10 @@ const FAILED: f64 = 10.0;
 /// read.
 const ROUNDING: f64 = 1e9;
 
-/// A figure that counts for the cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Figure {
-    /// Simulated time (s).
-    Time,
-    /// Length of the path of the platform (m).
-    Path,
-    /// A figure that scenarios can bound.
-    Metric(Metric),
-}
-
 /// A figure with its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Term {
-    pub(crate) figure: Figure,
+    pub(crate) figure: Metric,
     /// Cost of a millimetre, a second or one.
     pub(crate) weight: f64,
 }
@@ -38,41 +25,21 @@ pub struct Objective {
     terms: Vec<Term>,
 }
 
-impl Figure {
-    /// The figure with this name.
-    fn named(name: &str) -> Option<Self> {
-        match name {
-            "time" => Some(Self::Time),
-            "path" => Some(Self::Path),
-            _ => Metric::ALL.into_iter().find(|metric| metric.name() == name).map(Self::Metric),
-        }
-    }
+/// True if an objective can have the figure: it has a name and a direction.
+fn is_judged(metric: Metric) -> bool {
+    let figure = metric.figure();
+    figure.name.is_some() && figure.better.is_some()
+}
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Time => "time",
-            Self::Path => "path",
-            Self::Metric(metric) => metric.name(),
-        }
-    }
-
-    /// The amount that is to be small, in millimetres, seconds or ones. A share that is to be large counts by what is
-    /// missing from 1. `None` if the run does not have the figure.
-    fn amount(self, result: &TrialResult) -> Option<f64> {
-        match self {
-            Self::Time => result.run.trace.ticks.last().map(|tick| tick.time),
-            Self::Path => Some(1e3 * result.score.path),
-            Self::Metric(metric) => result.score.figure(metric).map(|value| {
-                if metric.is_lower_bounded() {
-                    1.0 - value
-                } else if metric.dimension() == Dimension::LENGTH {
-                    1e3 * value
-                } else {
-                    value
-                }
-            }),
-        }
-    }
+/// The amount of a figure that is to be small, in millimetres, seconds or ones. A figure that is to be large is a share, and counts
+/// by what is missing from 1. `None` if the run does not have the figure.
+fn amount(metric: Metric, result: &TrialResult) -> Option<f64> {
+    let value = result.score.figure(metric)?;
+    Some(match metric.figure() {
+        figure if figure.larger_is_better() => 1.0 - value,
+        figure if figure.kind == Kind::Length => 1e3 * value,
+        _ => value,
+    })
 }
 
 impl Term {
@@ -82,13 +49,13 @@ impl Term {
     /// What to write instead.
     pub fn parse(text: &str) -> Result<Self, String> {
         let known = || {
-            let metrics = Metric::ALL.map(Metric::name).join(", ");
-            format!(
-                "write FIGURE=WEIGHT with a weight of 0 or more, such as error_mean=10; figures are time, path, {metrics}"
-            )
+            let metrics: Vec<&str> =
+                Metric::ALL.into_iter().filter(|metric| is_judged(*metric)).map(Metric::name).collect();
+            let metrics = metrics.join(", ");
+            format!("write FIGURE=WEIGHT with a weight of 0 or more, such as error_mean=10; figures are {metrics}")
         };
         let (name, weight) = text.split_once('=').ok_or_else(known)?;
-        let figure = Figure::named(name.trim()).ok_or_else(known)?;
+        let figure = Metric::named(name.trim()).filter(|metric| is_judged(*metric)).ok_or_else(known)?;
         let weight: f64 = weight.trim().parse().map_err(|_| known())?;
         if !weight.is_finite() || weight < 0.0 {
             return Err(known());
@@ -100,8 +67,8 @@ impl Term {
 impl Default for Objective {
     /// 0.1 mm of mean error cost as much as 100 s.
     fn default() -> Self {
-        let error = Term { figure: Figure::Metric(Metric::ErrorMean), weight: 10.0 };
-        Self { terms: vec![error, Term { figure: Figure::Time, weight: 0.01 }] }
+        let error = Term { figure: Metric::ErrorMean, weight: 10.0 };
+        Self { terms: vec![error, Term { figure: Metric::SimulatedTime, weight: 0.01 }] }
     }
 }
 
@@ -123,7 +90,7 @@ impl Objective {
 
     /// The weighted sum of the figures of a run. `None` if it lacks one of them.
     pub(crate) fn sum(&self, result: &TrialResult) -> Option<f64> {
-        let amounts = self.terms.iter().map(|term| Some(term.weight * term.figure.amount(result)?));
+        let amounts = self.terms.iter().map(|term| Some(term.weight * amount(term.figure, result)?));
         amounts.sum::<Option<f64>>().filter(|sum| sum.is_finite())
     }
 
@@ -173,7 +140,7 @@ mod tests {
     #[test]
     fn a_term_names_a_figure_and_a_weight() {
         let term = Term::parse("error_p95=2.5").unwrap();
-        assert_eq!(term, Term { figure: Figure::Metric(Metric::ErrorP95), weight: 2.5 });
+        assert_eq!(term, Term { figure: Metric::ErrorP95, weight: 2.5 });
         assert_eq!(Objective::new(&[term, Term::parse("time=1").unwrap()]).to_string(), "2.5 error_p95 + 1 time");
         for text in ["error", "error_mean=", "error_mean=-1", "error_mean=inf", "nothing=1"] {
             assert!(Term::parse(text).is_err(), "{text}");

@@ -1,7 +1,10 @@
 //! Members of whiskers, contours, the body and a run.
 
+use std::sync::LazyLock;
+
 use crate::test::{PlotFigure, RunFigure};
 use crate::types::Type;
+use vibrissa_declare::figures::{Figure, Metric};
 use vibrissa_runtime::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::units::Dimension;
 
@@ -269,7 +272,17 @@ const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
 
-const RUN: [Member; 26] = [
+/// The members of a run: its verdict, the figures that tests can read, and figures of its states and plots.
+static RUN: LazyLock<Vec<Member>> = LazyLock::new(|| {
+    let figures = Metric::ALL.into_iter().filter(|metric| metric.figure().is_in_tests).map(|metric| {
+        let Figure { meaning, .. } = *metric.figure();
+        figure(metric.name(), Type::Scalar(metric.figure().dimension()), RunFigure::Metric(metric), meaning)
+    });
+    VERDICTS.into_iter().chain(figures).chain(PARTS).collect()
+});
+
+/// The verdicts on a run.
+const VERDICTS: [Member; 5] = [
     figure(
         "passed",
         Type::Truth,
@@ -290,82 +303,10 @@ const RUN: [Member; 26] = [
         "true if the run reached its time limit before the loop closed",
     ),
     figure("diverged", Type::Truth, RunFigure::Diverged, "true if the simulation diverged"),
-    figure("time", Type::TIME, RunFigure::Time, "the simulated time"),
-    figure("error_mean", Type::LENGTH, RunFigure::ErrorMean, "the mean distance of the recorded tips from the object"),
-    figure(
-        "error_p95",
-        Type::LENGTH,
-        RunFigure::ErrorP95,
-        "the 95th percentile of the distances of the recorded tips from the object",
-    ),
-    figure(
-        "error_max",
-        Type::LENGTH,
-        RunFigure::ErrorMax,
-        "the maximum of the distances of the recorded tips from the object",
-    ),
-    figure(
-        "outliers",
-        Type::NUMBER,
-        RunFigure::Outliers,
-        "the share of recorded tips with an error above 0.1 mm plus four reported standard deviations, 0 to 1",
-    ),
-    figure(
-        "hausdorff",
-        Type::LENGTH,
-        RunFigure::Hausdorff,
-        "the Hausdorff distance between the estimated and the exact contour",
-    ),
-    figure("coverage", Type::NUMBER, RunFigure::Coverage, "the share of the exact contour that was traced, 0 to 1"),
-    figure(
-        "retrievals",
-        Type::NUMBER,
-        RunFigure::Retrievals,
-        "the number of retrievals: from `mark lost` to the next `mark found` of the same whisker",
-    ),
-    figure(
-        "retrieval_radius",
-        Type::LENGTH,
-        RunFigure::RetrievalRadius,
-        "the mean distance from the edge point to the retrieved point. Unknown without a retrieval",
-    ),
-    figure(
-        "retrieval_distance",
-        Type::LENGTH,
-        RunFigure::RetrievalDistance,
-        "the mean path length of the platform during a retrieval. Unknown without a retrieval",
-    ),
-    figure(
-        "axis_mean",
-        Type::LENGTH,
-        RunFigure::AxisMean,
-        "the mean distance of the estimated midpoints from the axis of a tunnel. Unknown outside of tunnels",
-    ),
-    figure(
-        "corner_place_max",
-        Type::LENGTH,
-        RunFigure::CornerPlaceMax,
-        "the maximum error of the estimated positions of sharp corners. Unknown if there is no sharp corner, or if one was not traced",
-    ),
-    figure(
-        "corner_time_max",
-        Type::TIME,
-        RunFigure::CornerTimeMax,
-        "the maximum time for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
-    ),
-    figure(
-        "corner_path_max",
-        Type::LENGTH,
-        RunFigure::CornerPathMax,
-        "the maximum path length of the platform for a sharp corner. Unknown if there is no sharp corner, or if one was not traced",
-    ),
-    figure("collisions", Type::NUMBER, RunFigure::Collisions, "the number of collisions of the platform's body"),
-    figure(
-        "inclination_beyond",
-        Type::TIME,
-        RunFigure::InclinationBeyond,
-        "the time in which whiskers are inclined so much that a round one leaves the plane, added over all whiskers. Unknown if no whisker recorded a contour",
-    ),
+];
+
+/// Figures of the states and the plots of a run.
+const PARTS: [Member; 5] = [
     member(
         "visits",
         Type::NUMBER,

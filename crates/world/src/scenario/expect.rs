@@ -4,7 +4,8 @@ use super::fields::Fields;
 use super::key::Key;
 use super::node::Entry;
 use super::reader::Reader;
-use crate::scene::{Expectation, Metric, Outcome, Stop};
+use crate::scene::{Expectation, Outcome, Stop};
+use vibrissa_declare::figures::{Bound, Kind, Metric};
 
 /// The expectation of every scenario without an outcome in `expect`: its runs complete.
 const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
@@ -41,25 +42,16 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<Vec<Expecta
         expectations.push(COMPLETION);
     }
     for metric in Metric::ALL {
-        if metric.is_count() {
-            let count = fields
-                .entry(metric.name())
-                .and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MAX_COUNT, 0));
-            expectations.extend(count.map(|count| Expectation::Bound { metric, bound: count.into() }));
-            continue;
-        }
-        let (range, example) = match metric {
-            Metric::Outliers => ((0.0, 1.0), "0.2 %"),
-            _ if metric.is_share() => ((0.0, 1.0), "95 %"),
-            Metric::CornerTimeMax => ((1e-3, 86_400.0), "3 s"),
-            Metric::CornerPathMax => ((1e-9, 1e3), "15 cm"),
-            _ => ((1e-9, 1.0), "0.8 mm"),
+        let figure = metric.figure();
+        let Some(Bound { range, example }) = figure.bound else { continue };
+        let bound = if figure.kind == Kind::Count {
+            let entry = fields.entry(metric.name());
+            entry.and_then(|entry| reader.count(&entry.value, metric.name(), 0..=MAX_COUNT, 0)).map(f64::from)
+        } else {
+            let (mut bound, key) = (f64::NAN, Key::new(metric.name(), figure.dimension(), range, example));
+            fields.set(reader, &key, &mut bound).map(|_| bound)
         };
-        let key = Key::new(metric.name(), metric.dimension(), range, example);
-        let mut bound = f64::NAN;
-        if fields.set(reader, &key, &mut bound).is_some() {
-            expectations.push(Expectation::Bound { metric, bound });
-        }
+        expectations.extend(bound.map(|bound| Expectation::Bound { metric, bound }));
     }
     fields.finish(reader);
     Some(expectations)

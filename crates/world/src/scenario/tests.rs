@@ -6,10 +6,11 @@ use crate::geometry::Point2;
 use crate::geometry::Pose;
 use crate::physics::{Integrator, Physics, Preset, ShaftModel, Solver};
 use crate::scene::{Expectation, Stop};
-use crate::scene::{LoopClosed, Metric, Outcome, Stalled};
+use crate::scene::{LoopClosed, Outcome, Stalled};
 use crate::solid::Solid;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
+use vibrissa_declare::figures::Metric;
 use vibrissa_runtime::rig::{Estimation, Hinge, Platform, Rig, Sensing, Shaft, Whisker, YawController};
 use vibrissa_text::diagnostic::{Colour, terminal};
 

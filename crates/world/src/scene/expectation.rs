@@ -1,6 +1,8 @@
 //! Conditions on the result of a run.
 
 use std::fmt;
+
+use vibrissa_declare::figures::{Kind, Metric};
 use vibrissa_runtime::units::{Dimension, format_si};
 
 /// The outcome of a run.
@@ -20,58 +22,13 @@ pub enum Outcome {
     Refused,
 }
 
-/// A figure of a run that an expectation can bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Metric {
-    /// Mean distance of the tip estimates from the object (m).
-    ErrorMean,
-    /// 95th percentile of this distance (m).
-    ErrorP95,
-    /// Maximum of this distance (m).
-    ErrorMax,
-    /// Coverage of the 95 % interval: the share of tip estimates within their own interval (0 to 1).
-    IntervalCoverage,
-    /// Share of the tip estimates that are outliers (0 to 1).
-    Outliers,
-    /// Hausdorff distance between the object and the estimated contour (m).
-    Hausdorff,
-    /// Share of the object's outline that was traced (0 to 1).
-    Coverage,
-    /// Share of the traced outline of the object whose loop closed (0 to 1).
-    ObjectCoverage,
-    /// Share of a tunnel's length that the platform passed between its walls (0 to 1).
-    Passage,
-    /// Share of a tunnel's inner sides that was traced between the first and the last contact (0 to 1).
-    WallCoverage,
-    /// Mean retrieval radius (m).
-    RetrievalRadius,
-    /// Mean retrieval distance (m).
-    RetrievalDistance,
-    /// Mean distance of the estimated midpoints from the axis of a tunnel (m).
-    AxisMean,
-    /// Largest distance of an estimated corner from the exact one (m).
-    CornerPlaceMax,
-    /// Longest time of a corner (s).
-    CornerTimeMax,
-    /// Longest path of the platform at a corner (m).
-    CornerPathMax,
-    /// Number of contacts of the platform's body.
-    Collisions,
-    /// Largest distance of a tip from the plane (m), in a spatial simulation.
-    OutOfPlaneMax,
-    /// Number of slips of tips out of the plane, in a spatial simulation.
-    Slips,
-    /// Time beyond the limit of the inclination, added over all whiskers.
-    InclinationBeyond,
-}
-
 /// A condition on the result of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Expectation {
     /// The run has this outcome.
     Outcome(Outcome),
-    /// The figure is at most the bound, or at least the bound for a [metric with a lower
-    /// bound](Metric::is_lower_bounded).
+    /// The figure is at most the bound, or at least the bound for a figure of which
+    /// [larger values are better](vibrissa_declare::figures::Figure::larger_is_better).
     Bound {
         /// The metric.
         metric: Metric,
@@ -129,101 +86,13 @@ impl fmt::Display for Outcome {
     }
 }
 
-impl Metric {
-    /// All metrics.
-    pub const ALL: [Self; 20] = [
-        Self::ErrorMean,
-        Self::ErrorP95,
-        Self::ErrorMax,
-        Self::IntervalCoverage,
-        Self::Outliers,
-        Self::Hausdorff,
-        Self::Coverage,
-        Self::ObjectCoverage,
-        Self::Passage,
-        Self::WallCoverage,
-        Self::RetrievalRadius,
-        Self::RetrievalDistance,
-        Self::AxisMean,
-        Self::CornerPlaceMax,
-        Self::CornerTimeMax,
-        Self::CornerPathMax,
-        Self::Collisions,
-        Self::OutOfPlaneMax,
-        Self::Slips,
-        Self::InclinationBeyond,
-    ];
-
-    /// The name in scenarios.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ErrorMean => "error_mean",
-            Self::ErrorP95 => "error_p95",
-            Self::ErrorMax => "error_max",
-            Self::IntervalCoverage => "interval_coverage",
-            Self::Outliers => "outliers",
-            Self::Hausdorff => "hausdorff",
-            Self::Coverage => "coverage",
-            Self::ObjectCoverage => "object_coverage",
-            Self::Passage => "passage",
-            Self::WallCoverage => "wall_coverage",
-            Self::RetrievalRadius => "retrieval_radius",
-            Self::RetrievalDistance => "retrieval_distance",
-            Self::AxisMean => "axis_mean",
-            Self::CornerPlaceMax => "corner_place_max",
-            Self::CornerTimeMax => "corner_time_max",
-            Self::CornerPathMax => "corner_path_max",
-            Self::Collisions => "collisions",
-            Self::OutOfPlaneMax => "out_of_plane_max",
-            Self::Slips => "slips",
-            Self::InclinationBeyond => "inclination_beyond",
-        }
-    }
-
-    /// The physical dimension.
-    #[must_use]
-    pub fn dimension(self) -> Dimension {
-        match self {
-            _ if self.is_count() => Dimension::NUMBER,
-            _ if self.is_share() => Dimension::NUMBER,
-            Self::CornerTimeMax | Self::InclinationBeyond => Dimension::TIME,
-            _ => Dimension::LENGTH,
-        }
-    }
-
-    /// True if larger values are better, so that the bound is a lower bound.
-    #[must_use]
-    pub fn is_lower_bounded(self) -> bool {
-        self.is_share() && self != Self::Outliers
-    }
-
-    /// True for a share from 0 to 1.
-    #[must_use]
-    pub fn is_share(self) -> bool {
-        matches!(
-            self,
-            Self::IntervalCoverage
-                | Self::Outliers
-                | Self::Coverage
-                | Self::ObjectCoverage
-                | Self::Passage
-                | Self::WallCoverage
-        )
-    }
-
-    /// True for a number of events.
-    #[must_use]
-    pub fn is_count(self) -> bool {
-        matches!(self, Self::Collisions | Self::Slips)
-    }
-
-    fn format(self, value: f64) -> String {
-        if self.is_share() {
-            format!("{} %", format_si(value * 100.0, Dimension::NUMBER))
-        } else {
-            format_si(value, self.dimension())
-        }
+/// A value (SI) of a figure as text, with its unit.
+fn text(metric: Metric, value: f64) -> String {
+    let figure = metric.figure();
+    if figure.kind == Kind::Share {
+        format!("{} %", format_si(value * 100.0, Dimension::NUMBER))
+    } else {
+        format_si(value, figure.dimension())
     }
 }
 
@@ -236,7 +105,9 @@ impl Expectation {
             Self::Bound { metric, bound } => {
                 let found = figure(metric);
                 let holds =
-                    found.is_some_and(|value| if metric.is_lower_bounded() { value >= bound } else { value <= bound });
+                    found.is_some_and(
+                        |value| if metric.figure().larger_is_better() { value >= bound } else { value <= bound },
+                    );
                 (!holds).then_some(Violation::Bound { metric, bound, found })
             }
         }
@@ -250,9 +121,9 @@ impl fmt::Display for Violation {
             Self::Contracts { violated: 1 } => f.write_str("the policy violated one of its contracts"),
             Self::Contracts { violated } => write!(f, "the policy violated {violated} of its contracts"),
             Self::Bound { metric, bound, found } => {
-                let found = found.map_or("not known".to_owned(), |value| metric.format(value));
-                let side = if metric.is_lower_bounded() { "at least" } else { "at most" };
-                write!(f, "{} is {found}, expected {side} {}", metric.name(), metric.format(bound))
+                let found = found.map_or("not known".to_owned(), |value| text(metric, value));
+                let side = if metric.figure().larger_is_better() { "at least" } else { "at most" };
+                write!(f, "{} is {found}, expected {side} {}", metric.name(), text(metric, bound))
             }
         }
     }

@@ -10,7 +10,7 @@ mod stop;
 mod world_kind;
 
 pub(crate) use clearance::{Overlap, overlap};
-pub use expectation::{Expectation, Metric, Outcome, Violation};
+pub use expectation::{Expectation, Outcome, Violation};
 pub use gap::gap;
 pub use jitter::Jitter;
 pub use scene::{FileReference, PolicyReference, PolicySetting, Scene, SelfCalibration, Truth};

@@ -62,12 +62,12 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
     use super::*;
-    use crate::study::compare::FIGURES;
+    use crate::study::compare::figures;
 
     #[test]
     fn one_figure_is_in_the_singular() {
-        let figure = |name: &str| FIGURES.iter().find(|figure| figure.name == name).unwrap();
-        let same = |name: &str| FigureComparison::new(figure(name), "b.fsm", vec![(1.0, 1.0)]).unwrap();
+        let figure = |name: &str| figures().into_iter().find(|figure| figure.name == name).unwrap();
+        let same = |name: &str| FigureComparison::new(&figure(name), "b.fsm", vec![(1.0, 1.0)]).unwrap();
         let (one, two) = ([same("coverage")], [same("coverage"), same("path_m")]);
         assert!(sentences(one.iter()).into_string().contains("1 figure is the same"));
         assert!(sentences(two.iter()).into_string().contains("2 figures are the same"));
@@ -75,11 +75,11 @@ mod tests {
 
     #[test]
     fn a_change_is_a_sentence_with_its_interval_in_the_direction_of_the_verb() {
-        let coverage = FIGURES.iter().find(|figure| figure.name == "coverage").unwrap();
+        let coverage = figures().into_iter().find(|figure| figure.name == "coverage").unwrap();
         let pairs = vec![(0.90, 0.92), (0.91, 0.94), (0.92, 0.93)];
-        let rose = FigureComparison::new(coverage, "b.fsm", pairs.clone()).unwrap();
+        let rose = FigureComparison::new(&coverage, "b.fsm", pairs.clone()).unwrap();
         let fell = pairs.into_iter().map(|(first, other)| (other, first)).collect();
-        let fell = FigureComparison::new(coverage, "b.fsm", fell).unwrap();
+        let fell = FigureComparison::new(&coverage, "b.fsm", fell).unwrap();
         let text = |figure| sentence(figure).into_string();
         assert_eq!(
             text(&rose),

@@ -6,10 +6,11 @@ use super::document::page;
 use super::run::place;
 use super::table::{Judgement, PageCell, PageTable};
 use crate::family::{FamilyRun, FamilyTally};
-use crate::report::number::millimetres;
-use crate::report::table::{NONE, percent};
+use crate::report::table::NONE;
 use crate::report::tables::families_table;
+use crate::report::tables::results::text;
 use crate::results::{LargestError, Provenance};
+use vibrissa_declare::figures::{Cell, Metric};
 
 /// Number of the runs with the largest errors that are named.
 const WORST_NAMED: usize = 10;
@@ -88,15 +89,15 @@ fn run_table<'p>(runs: &[FamilyRun], picture: impl Fn(usize) -> Option<&'p str>)
     let row = |(index, run): (usize, &FamilyRun)| {
         let result = &run.result;
         let worse = |is_worse: bool| is_worse.then_some(Judgement::Worse);
-        let figure = |figure: Option<f64>| figure.map_or_else(|| NONE.to_owned(), millimetres);
+        let figure = |metric, digits| text(result, metric, Cell::Decimals(digits)).unwrap_or_else(|| NONE.to_owned());
         let passed = if run.passed { "yes" } else { "no" };
         let family = PageCell { link: picture(index).map(str::to_owned), ..PageCell::from(run.family.to_owned()) };
         let passed = PageCell { judgement: worse(!run.passed), ..PageCell::from(passed.to_owned()) };
         let texts = [
-            figure(result.error_mm.mean),
-            figure(result.error_mm.max),
-            percent(result.coverage, 1),
-            result.collisions.count.to_string(),
+            figure(Metric::ErrorMean, 3),
+            figure(Metric::ErrorMax, 3),
+            figure(Metric::Coverage, 1),
+            figure(Metric::Collisions, 0),
             run.result.violations.join("; "),
             run.about.clone(),
         ];

@@ -7,9 +7,11 @@ use super::figure::{figure, namespaced};
 use crate::report::number::millimetres;
 use crate::report::picture::{PlottedRun, colour_of, histogram, plotted, state_band};
 use crate::report::style;
+use crate::report::tables::results::text;
 use crate::results::{Ending, LargestError, RunResult};
 use crate::run::{Run, Trace};
 use crate::score::Score;
+use vibrissa_declare::figures::{Cell, Metric};
 use vibrissa_world::scene::Scene;
 
 /// The figures of a run for a page. They are small, while the trace of a run is large.
@@ -219,6 +221,7 @@ fn band(run: &PageRun<'_>, prefix: &str, longest: f64) -> Markup {
 /// The section of a run: its reason, its picture and its histograms.
 pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
     let PageRun { scene, result, figures, passed } = run;
+    let known = |metric, digits| text(result, metric, Cell::Decimals(digits)).unwrap_or_default();
     let policy = result.policy_label();
     let name = format!("{scene}-{policy}").replace(", ", "-").replace(' ', "-");
     let caption = html! {
@@ -230,9 +233,9 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
             h2 { (scene) ", " (policy) }
             p class=(if *passed { "outcome" } else { "outcome worse" }) {
                 (with_explanation(result.outcome, result))
-                " · coverage " (format!("{:.1} %", 100.0 * result.coverage))
-                " · collisions " (result.collisions.count)
-                " · " (format!("{:.1} s", result.sim_s)) " simulated by " (result.world)
+                " · coverage " (known(Metric::Coverage, 1))
+                " · collisions " (known(Metric::Collisions, 0))
+                " · " (known(Metric::SimulatedTime, 1)) " s simulated by " (result.world)
             }
             (figure(&name, &format!("run{index}-"), &with_ring(figures), &caption, Some(&figures.positions)))
             div.histograms {

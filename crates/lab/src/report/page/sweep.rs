@@ -13,6 +13,7 @@ use crate::report::table::{NONE, percent};
 use crate::report::tables::summary_table;
 use crate::results::{Ending, LargestError, Provenance, Rate, Tally};
 use crate::sweep::{RunRow, SweepCurve, SweepGroup, SweepPoint, SweepSummary};
+use vibrissa_declare::figures::Metric;
 
 /// A page with heat maps of a sweep, the table of its groups and the runs of each group. `pictures` gives the address of the picture of
 /// a run, if there is one. `rows` has the runs of each group of the `summary`. It needs no other file than these pictures.
@@ -113,7 +114,9 @@ fn label(group: &SweepGroup) -> String {
 
 fn run_table(group: &SweepGroup, rows: &[RunRow], picture: impl Fn(&RunRow) -> Option<String>) -> PageTable {
     let cells = |row: &RunRow| {
-        let [mean, max] = row.errors_mm().map(|error| error.map_or_else(|| NONE.to_owned(), millimetres));
+        let known = |figure: Option<String>| figure.unwrap_or_else(|| NONE.to_owned());
+        let largest = row.largest_error.as_ref().map(|worst| worst.error_mm);
+        let [mean, max] = [row.figure(Metric::ErrorMean), largest].map(|error| known(error.map(millimetres)));
         let failed = row.outcome != Ending::Completed;
         let outcome = PageCell {
             text: row.outcome.name().to_owned(),
@@ -125,11 +128,12 @@ fn run_table(group: &SweepGroup, rows: &[RunRow], picture: impl Fn(&RunRow) -> O
             judgement: (!row.passed).then_some(Judgement::Worse),
             link: None,
         };
-        let coverage = row.coverage.map_or_else(|| NONE.to_owned(), |coverage| percent(coverage, 1));
+        let coverage = known(row.figure(Metric::Coverage).map(|coverage| percent(coverage, 1)));
+        let collisions = row.figure(Metric::Collisions).unwrap_or(0.0).to_string();
         let reasons =
             if row.violations.is_empty() { row.reason.clone().unwrap_or_default() } else { row.violations.join("; ") };
         let about = row.about.clone().unwrap_or_default();
-        let texts = [mean, max, coverage, row.collision_count().to_string(), reasons, about].map(PageCell::from);
+        let texts = [mean, max, coverage, collisions, reasons, about].map(PageCell::from);
         [PageCell::from(row.trial.to_string()), outcome, passed].into_iter().chain(texts).collect()
     };
     PageTable {

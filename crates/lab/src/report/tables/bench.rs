@@ -1,10 +1,10 @@
 //! The bench as a table.
 
-use super::super::number::{mean_std, millimetres};
 use super::super::table::{NONE, Table, percent};
-use super::results::dead_whiskers;
+use super::results::{corners, dead_whiskers, text};
 use crate::results::TipShares;
 use crate::study::bench::{BenchRow, Verdict};
+use vibrissa_declare::figures::{Cell, Metric};
 
 /// The number of columns that name a run and its verdict.
 pub(in crate::report) const NAMES: usize = 4;
@@ -55,8 +55,8 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
         }
     }
     let line = |policy: String| {
-        let mine = rows.iter().filter(|row| row.result.policy_label() == policy).map(|row| &row.result.error_mm);
-        let tips: TipShares = mine.map(|error| TipShares::of_run(error.n, error.outliers, error.within_band)).sum();
+        let mine = rows.iter().map(|row| &row.result).filter(|result| result.policy_label() == policy);
+        let tips: TipShares = mine.map(|result| TipShares::of_figures(|metric| result.figure(metric))).sum();
         let share = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
         format!(
             "{policy}: {} tips, {} outliers, {} within their 95 % interval",
@@ -73,7 +73,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 23
     let result = &row.result;
     let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
     let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
-        let found = plain(found.mean.map(|mean| mean_std(mean, found.std))).0;
+        let found = plain(text(result, found, Cell::Spread)).0;
         let reported = reported.map(|reported| match reported.std {
             Some(std) => format!("{} ± {}", reported.mean, std),
             None => reported.mean.to_string(),
@@ -81,7 +81,7 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 23
         [(found, verdict), plain(reported)]
     });
     let [[error, baseline_error], [radius, baseline_radius], [axis, baseline_axis]] = [error, radius, axis];
-    let corners = result.corners.as_ref();
+    let decimals = |metric, digits| plain(text(result, metric, Cell::Decimals(digits)));
     [
         plain(Some(row.scene())),
         plain(Some(result.policy_label())),
@@ -89,22 +89,22 @@ pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 23
         plain(against_baseline(row)),
         error,
         baseline_error,
-        plain(result.error_mm.outliers.map(|share| percent(share, 2))),
-        plain(Some(percent(result.coverage, 1))),
+        decimals(Metric::Outliers, 2),
+        decimals(Metric::Coverage, 1),
         radius,
         baseline_radius,
         axis,
         baseline_axis,
-        plain(Some(result.collisions.count.to_string())),
+        decimals(Metric::Collisions, 0),
         plain(dead_whiskers(result)),
-        plain(result.passage.map(|passage| percent(passage.wall_coverage, 1))),
-        plain(result.error_mm.within_band.map(|share| percent(share, 1))),
-        plain(corners.map(|corners| format!("{} of {}", corners.traced, corners.count))),
-        plain(corners.and_then(|corners| corners.place_mm.mean).map(millimetres)),
-        plain(corners.and_then(|corners| corners.time_s.mean).map(|time| format!("{time:.1}"))),
-        plain(corners.and_then(|corners| corners.path_m.mean).map(|path| format!("{path:.2}"))),
-        plain(Some(format!("{:.2}", result.path_m))),
-        plain(Some(format!("{:.1}", result.sim_s))),
+        decimals(Metric::WallCoverage, 1),
+        decimals(Metric::IntervalCoverage, 1),
+        plain(corners(result)),
+        decimals(Metric::CornerPlace, 3),
+        decimals(Metric::CornerTime, 1),
+        decimals(Metric::CornerPath, 2),
+        decimals(Metric::Path, 2),
+        decimals(Metric::SimulatedTime, 1),
         plain(Some(result.world.clone())),
     ]
 }

@@ -47,7 +47,7 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
                 (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
             };
             let tips: TipShares =
-                mine.iter().map(|row| TipShares::of_run(row.tips, row.outliers, row.within_band)).sum();
+                mine.iter().map(|row| TipShares::of_run(row.tips as f64, row.outliers, row.within_band)).sum();
             let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or(NONE.to_owned(), text);
             let percent = |share: f64| format!("{:.1} %", 100.0 * share);
             vec![

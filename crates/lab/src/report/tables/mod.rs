@@ -10,7 +10,7 @@ mod latency;
 mod near_misses;
 mod pareto;
 mod replay;
-mod results;
+pub(super) mod results;
 mod stop;
 mod stress;
 mod sweep;

@@ -2,57 +2,63 @@
 
 use super::super::number::{mean_std, millimetres};
 use super::super::table::{NONE, Table, percent};
-use crate::results::{Inclination, MeanStd, RunResult};
+use crate::results::RunResult;
+use vibrissa_declare::figures::{self as declared, Cell, Kind, Metric};
 
-/// A column: its heading, its text for a run, and whether it is shown even if no run has the figure.
-type Column = (&'static str, fn(&RunResult) -> Option<String>, bool);
+/// A column: its place among the columns, its heading, its text for a run, and whether it is shown even if no run has the figure.
+type Column = (u16, &'static str, Box<dyn Fn(&RunResult) -> Option<String>>, bool);
+
+/// A column that has no figure.
+fn other(rank: u16, heading: &'static str, text: fn(&RunResult) -> Option<String>, is_always: bool) -> Column {
+    (rank, heading, Box::new(text), is_always)
+}
 
 /// The columns from left to right.
-const COLUMNS: [Column; 29] = [
-    ("scene", |result| Some(result.scenario.clone()), true),
-    ("policy", |result| Some(result.policy_label()), true),
-    ("outcome", |result| Some(result.outcome.to_string()), true),
-    ("error mm", |result| Some(mean_std(result.error_mm.mean?, result.error_mm.std)), true),
-    ("largest error mm", |result| result.error_mm.max.map(millimetres), true),
-    ("outliers", |result| result.error_mm.outliers.map(|share| percent(share, 2)), true),
-    ("coverage", |result| Some(percent(result.coverage, 1)), true),
-    ("passage", |result| Some(percent(result.passage?.share, 1)), false),
-    ("wall coverage", |result| Some(percent(result.passage?.wall_coverage, 1)), false),
-    ("coverage of outlines", |result| outlines(&result.outline_coverages), false),
-    ("collisions", |result| (result.collisions.count > 0).then(|| result.collisions.count.to_string()), false),
-    ("seem dead", |result| dead_whiskers(result), false),
-    ("out of plane mm", |result| Some(millimetres(result.out_of_plane.as_ref()?.max_mm)), false),
-    ("slips", |result| Some(result.out_of_plane.as_ref()?.slips.to_string()), false),
-    ("farthest untraced mm", |result| result.hausdorff_mm.map(millimetres), true),
-    ("× real time", |result| result.realtime.map(|realtime| format!("{realtime:.0}")), true),
-    ("sim s", |result| Some(format!("{:.1}", result.sim_s)), true),
-    ("in 95 % interval", |result| result.error_mm.within_band.map(|share| percent(share, 1)), true),
-    ("p95 error mm", |result| result.error_mm.p95.map(millimetres), true),
-    ("axis mm", |result| mean_with_std(result.axis_mm?), false),
-    ("corners", |result| result.corners.map(|corners| format!("{} of {}", corners.traced, corners.count)), false),
-    ("corner position mm", |result| result.corners?.place_mm.mean.map(millimetres), false),
-    ("corner time s", |result| result.corners?.time_s.mean.map(|time| format!("{time:.1}")), false),
-    ("corner path m", |result| result.corners?.path_m.mean.map(|path| format!("{path:.2}")), false),
-    ("retrieval radius mm", |result| mean_with_std(result.retrieval?.radius_mm), false),
-    ("retrieval distance mm", |result| mean_with_std(result.retrieval?.distance_mm), false),
-    ("beyond inclination limit s", |result| beyond_inclination_limit(result.inclination.as_ref()?), false),
-    ("simulator", |result| Some(result.world.clone()), true),
-    ("tick µs", |result| result.tick_us.mean.map(|mean| format!("{mean:.1}")), true),
-];
+fn columns() -> Vec<Column> {
+    let mut columns = vec![
+        other(0, "scene", |result| Some(result.scenario.clone()), true),
+        other(10, "policy", |result| Some(result.policy_label()), true),
+        other(20, "outcome", |result| Some(result.outcome.to_string()), true),
+        other(90, "coverage of outlines", |result| outlines(&result.outline_coverages), false),
+        other(110, "seem dead", dead_whiskers, false),
+        other(150, "× real time", |result| result.realtime.map(|realtime| format!("{realtime:.0}")), true),
+        other(200, "corners", corners, false),
+        other(270, "simulator", |result| Some(result.world.clone()), true),
+    ];
+    columns.extend(Metric::ALL.into_iter().filter_map(|metric| {
+        let declared::Column { rank, heading, cell, is_always } = metric.figure().column?;
+        Some((rank, heading, Box::new(move |result: &RunResult| text(result, metric, cell)) as Box<_>, is_always))
+    }));
+    columns.sort_by_key(|(rank, ..)| *rank);
+    columns
+}
+
+/// A figure in a cell. `None` if the run does not have it.
+pub(in crate::report) fn text(result: &RunResult, metric: Metric, cell: Cell) -> Option<String> {
+    let value = result.figure(metric)?;
+    match (cell, metric.figure().kind) {
+        (Cell::Spread, _) => Some(mean_std(value, metric.beside("std").and_then(|std| result.figure(std)))),
+        (Cell::Positive(_), _) if value <= 0.0 => None,
+        (Cell::Decimals(digits) | Cell::Positive(digits), Kind::Share) => Some(percent(value, digits)),
+        (_, Kind::Length) if metric.figure().unit() == "mm" => Some(millimetres(value)),
+        (Cell::Decimals(digits) | Cell::Positive(digits), _) => Some(format!("{value:.digits$}")),
+    }
+}
 
 /// A table of results with a row for each. A figure that some runs lack, such as corners, has a column if one run has
 /// it.
 #[must_use]
 pub fn results_table(results: &[RunResult]) -> Table {
-    let shown = |&&(_, text, always): &&Column| always || results.iter().any(|result| text(result).is_some());
-    let columns: Vec<_> = COLUMNS.iter().filter(shown).collect();
+    let mut columns = columns();
+    columns.retain(|(_, _, text, is_always)| *is_always || results.iter().any(|result| text(result).is_some()));
     let cell = |text: Option<String>| text.unwrap_or_else(|| NONE.to_owned());
-    let rows = results.iter().map(|result| columns.iter().map(|(_, text, _)| cell(text(result))).collect());
-    Table::new(3, columns.iter().map(|(heading, ..)| *heading), rows)
+    let rows = results.iter().map(|result| columns.iter().map(|(_, _, text, _)| cell(text(result))).collect());
+    Table::new(3, columns.iter().map(|(_, heading, ..)| *heading), rows)
 }
 
-fn mean_with_std(figure: MeanStd) -> Option<String> {
-    Some(mean_std(figure.mean?, figure.std))
+/// The numbers of traced and of all sharp corners.
+pub(super) fn corners(result: &RunResult) -> Option<String> {
+    Some(format!("{} of {}", result.figure(Metric::CornersTraced)?, result.figure(Metric::Corners)?))
 }
 
 /// The coverage of each outline, if there are several.
@@ -64,9 +70,4 @@ fn outlines(coverages: &[f64]) -> Option<String> {
 pub(super) fn dead_whiskers(result: &RunResult) -> Option<String> {
     let names: Vec<_> = result.dead_whiskers().map(|whisker| whisker.whisker.as_str()).collect();
     (!names.is_empty()).then(|| names.join(", "))
-}
-
-/// The time beyond the limit of the inclination, if there is any.
-fn beyond_inclination_limit(inclination: &Inclination) -> Option<String> {
-    (inclination.beyond_s > 0.0).then(|| format!("{:.1}", inclination.beyond_s))
 }

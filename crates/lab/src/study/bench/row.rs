@@ -3,7 +3,8 @@
 use crate::results::Document;
 use serde::Serialize;
 
-use crate::results::{Ending, MeanStd, RunResult};
+use crate::results::{Ending, RunResult};
+use vibrissa_declare::figures::Metric;
 
 use super::baseline::{BaselineFigures, Reported, baseline_figures};
 use super::conditions::Conditions;
@@ -64,13 +65,12 @@ impl BenchRow {
         let baseline = baseline_figures(&result.scenario).copied();
         let met_its_stop = result.outcome.met_its_stop();
         let verdict = |reported, found| verdict(reported, found).filter(|_| met_its_stop);
-        let radius = result.retrieval.and_then(|retrieval| retrieval.radius_mm.mean);
-        let axis = result.axis_mm.and_then(|axis| axis.mean);
+        let radius = result.figure(Metric::RetrievalRadius);
         let verdicts = Verdicts {
-            error_mm: verdict(baseline.map(|baseline| baseline.error_mm), result.error_mm.mean),
+            error_mm: verdict(baseline.map(|baseline| baseline.error_mm), result.figure(Metric::ErrorMean)),
             radius_mm: radius
                 .and_then(|radius| verdict(baseline.and_then(|baseline| baseline.radius_mm), Some(radius))),
-            axis_mm: verdict(baseline.and_then(|baseline| baseline.axis_mm), axis),
+            axis_mm: verdict(baseline.and_then(|baseline| baseline.axis_mm), result.figure(Metric::AxisMean)),
         };
         let all = [verdicts.error_mm, verdicts.radius_mm, verdicts.axis_mm];
         let passed =
@@ -99,16 +99,13 @@ impl BenchRow {
         if self.result.mismatch.is_some() { format!("{scene}, mismatch") } else { scene }
     }
 
-    /// The figures that the baseline reports too: the measured one, the baseline's, and the verdict.
-    pub(crate) fn figures(&self) -> [(MeanStd, Option<Reported>, Option<Verdict>); 3] {
-        let error = MeanStd { mean: self.result.error_mm.mean, std: self.result.error_mm.std };
-        let radius = self.result.retrieval.map(|retrieval| retrieval.radius_mm).unwrap_or_default();
-        let axis = self.result.axis_mm.unwrap_or_default();
+    /// The figures that the baseline reports too: the metric, the baseline's value, and the verdict.
+    pub(crate) fn figures(&self) -> [(Metric, Option<Reported>, Option<Verdict>); 3] {
         let baseline = self.baseline.as_ref();
         [
-            (error, baseline.map(|baseline| baseline.error_mm), self.verdicts.error_mm),
-            (radius, baseline.and_then(|baseline| baseline.radius_mm), self.verdicts.radius_mm),
-            (axis, baseline.and_then(|baseline| baseline.axis_mm), self.verdicts.axis_mm),
+            (Metric::ErrorMean, baseline.map(|baseline| baseline.error_mm), self.verdicts.error_mm),
+            (Metric::RetrievalRadius, baseline.and_then(|baseline| baseline.radius_mm), self.verdicts.radius_mm),
+            (Metric::AxisMean, baseline.and_then(|baseline| baseline.axis_mm), self.verdicts.axis_mm),
         ]
     }
 }

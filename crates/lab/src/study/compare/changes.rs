@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::difference::FigureComparison;
-use super::figure::FIGURES;
+use super::figure::figures;
 
 /// The runs of an older report: the documents of `run --json` or `bench --json`.
 ///
@@ -62,11 +62,10 @@ impl OlderRuns {
         policies.dedup();
         let compared = policies.into_iter().map(|policy| {
             let mine = || pairs.iter().filter(|(_, run)| run.get("policy").is_some_and(|name| name == policy));
-            let figures = FIGURES.iter().filter_map(|figure| {
-                let both = mine().filter(|(older, run)| figure.counts_in(older) && figure.counts_in(run));
+            let figures = figures().into_iter().filter_map(|figure| {
                 let values =
-                    both.filter_map(|(older, run)| Some((figure.in_document(older)?, figure.in_document(run)?)));
-                FigureComparison::new(figure, policy, values.collect())
+                    mine().filter_map(|(older, run)| Some((figure.in_document(older)?, figure.in_document(run)?)));
+                FigureComparison::new(&figure, policy, values.collect())
             });
             (policy.to_owned(), figures.collect())
         });
@@ -83,9 +82,10 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::results::Document;
+    use crate::results::{Document, figure_in};
     use crate::study::compare::Outlook;
     use crate::trial::Trial;
+    use vibrissa_declare::figures::Metric;
     use vibrissa_language as policy;
     use vibrissa_world::scenario;
 
@@ -120,13 +120,17 @@ mod tests {
         let program = policy::compile(&Source::new(thesis.path, thesis.text)).unwrap();
         let mut trial = Trial::new(scene, Arc::new(program));
         trial.world = WorldKind::QuasiStatic.into();
-        let result = trial.document(&trial.run().unwrap());
+        let run = trial.run().unwrap();
+        let (score, result) = (&run.score, trial.document(&run));
         let document = serde_json::to_value(result.versioned(None)).unwrap();
-        for figure in &FIGURES {
-            assert_eq!(figure.in_document(&document), (figure.of)(&result), "{}", figure.name);
+        for metric in Metric::ALL {
+            let (figure, read) = (metric.figure(), figure_in(&document, metric));
+            assert_eq!(read, result.figure(metric), "{metric:?}");
+            assert_eq!(read, figure.key.and(score.figure(metric)).map(|value| value * figure.units()), "{metric:?}");
         }
-        let known = FIGURES.iter().filter(|figure| (figure.of)(&result).is_some()).count();
+        let known = figures().into_iter().filter(|figure| figure.of(&result).is_some()).count();
         assert!(known > 12, "the octagon has only {known} figures");
+        assert!(figures().iter().all(|figure| figure.in_document(&document) == figure.of(&result)));
     }
 
     #[test]

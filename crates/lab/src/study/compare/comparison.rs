@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::results::{Ending, Rate, RunResult};
 
 use super::difference::FigureComparison;
-use super::figure::FIGURES;
+use super::figure;
 
 /// Several policies over the same runs: every scenario from every start, with the same noise.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -69,7 +69,7 @@ impl Comparison {
                 policy: policy.clone(),
                 runs: results.len(),
                 completed: rate(|result| result.outcome == Ending::Completed),
-                collision_free: rate(|result| result.collisions.count == 0),
+                collision_free: rate(|result| !result.collided()),
                 incomplete: incomplete
                     .map(|result| Incomplete {
                         scenario: result.scenario.clone(),
@@ -82,12 +82,11 @@ impl Comparison {
         });
         let others = policies.get(1..).unwrap_or_default();
         let figures = policies.first().into_iter().flat_map(|(_, first)| {
-            FIGURES.iter().flat_map(move |figure| {
+            figure::figures().into_iter().flat_map(move |figure| {
                 others.iter().filter_map(move |(policy, results)| {
-                    let counts = |result: &RunResult| figure.of_every_run || result.outcome.met_its_stop();
-                    let both = first.iter().zip(results).filter(|(a, b)| counts(a) && counts(b));
-                    let pairs = both.filter_map(|(a, b)| Some(((figure.of)(a)?, (figure.of)(b)?))).collect();
-                    FigureComparison::new(figure, policy, pairs)
+                    let both = first.iter().zip(results);
+                    let pairs = both.filter_map(|(a, b)| Some((figure.of(a)?, figure.of(b)?))).collect();
+                    FigureComparison::new(&figure, policy, pairs)
                 })
             })
         });

@@ -8,4 +8,4 @@ mod figure;
 pub use changes::{Changes, OlderRuns, OlderRunsError};
 pub use comparison::{Comparison, Incomplete, PolicyRuns};
 pub use difference::{Difference, FigureComparison, Outlook};
-pub use figure::{FIGURES, Figure};
+pub use figure::{Figure, figures};

@@ -84,7 +84,7 @@ impl StressCase {
             Ok(result) => result,
             Err(cause) => return self.row(Ending::Refused, Some(cause.to_string()), 0.0, true),
         };
-        let (document, ending) = (trial.document(&result), result.ending());
+        let (document, ending, time) = (trial.document(&result), result.ending(), result.score.time);
         // JSON has no infinite numbers. They would read as missing figures.
         let run = result.run;
         let mut trace = run.trace;
@@ -95,7 +95,7 @@ impl StressCase {
             *deviation = 0.0;
         }
         let finite = is_finite(&format!("{document:?}")) && is_finite(&format!("{trace:?}"));
-        self.row(ending, run.reason, document.sim_s, finite)
+        self.row(ending, run.reason, time, finite)
     }
 
     /// The row of a case whose process crashed.
