@@ -1,7 +1,7 @@
 //! The use of the grammar: from text to pairs, and from pest's errors to diagnostics.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
 use pest::Parser;
@@ -12,17 +12,12 @@ use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 use super::parse_tree::{self, Match};
 use super::standard::MODULES;
 use super::syntax_error::syntax_error;
+use super::word::{Word, is_before_value, word};
 
 /// The maximum nesting depth of brackets. It bounds the recursion of the parser, and no realistic policy reaches it.
 const NESTING_LIMIT: usize = 64;
 /// The maximum length of a policy's text (bytes), a hundred times that of a long policy.
 pub(super) const LENGTH_LIMIT: usize = 1 << 18;
-
-/// Keywords that are followed by an expression.
-const WORDS_BEFORE_OPERANDS: [&str; 20] = [
-    "and", "or", "not", "if", "then", "else", "when", "after", "for", "in", "record", "steer", "along", "at", "facing",
-    "turning", "expect", "assume", "never", "always",
-];
 
 mod derived {
     // The derive writes undocumented items.
@@ -74,15 +69,29 @@ pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>>
     derived::FsmParser::parse(Rule::file, &source.text).map_err(|error| Box::new(syntax_error(source, &error)))
 }
 
-/// The keywords. Each is a rule of the grammar with the name `kw_` and the word.
-static KEYWORDS: LazyLock<HashSet<String>> = LazyLock::new(|| {
-    let rules = Rule::all_rules().iter().map(|rule| format!("{rule:?}"));
-    rules.filter_map(|rule| rule.strip_prefix("kw_").map(str::to_owned)).collect()
+/// The words of the grammar by their rules, and true for keywords. The rule of a keyword has the name `kw_` and the word,
+/// that of a word that is a name anywhere else `cw_` and the word.
+static WORD_RULES: LazyLock<HashMap<Rule, (&'static Word, bool)>> = LazyLock::new(|| {
+    let words = Rule::all_rules().iter().filter_map(|&rule| {
+        let name = format!("{rule:?}");
+        let (prefix, text) = name.split_at_checked(3).filter(|(prefix, _)| ["kw_", "cw_"].contains(prefix))?;
+        Some((rule, (word(text)?, prefix == "kw_")))
+    });
+    words.collect()
 });
+
+/// The keywords. They cannot be names.
+static KEYWORDS: LazyLock<HashSet<&str>> =
+    LazyLock::new(|| WORD_RULES.values().filter(|(_, is_keyword)| *is_keyword).map(|(word, _)| word.text).collect());
 
 /// True if a text is a keyword, so that it cannot be a name.
 pub(super) fn is_keyword(text: &str) -> bool {
     KEYWORDS.contains(text)
+}
+
+/// The word of a rule that matches one word of the language.
+pub(super) fn word_of(rule: Rule) -> Option<&'static Word> {
+    WORD_RULES.get(&rule).map(|&(word, _)| word)
 }
 
 /// The first bracket or bar that exceeds the nesting limit.
@@ -139,12 +148,12 @@ pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
 
 /// True if an operand can end with a token, so that a following bar closes.
 fn ends_operand(before: &str) -> bool {
-    [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !WORDS_BEFORE_OPERANDS.contains(&before)
+    [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !is_before_value(before)
 }
 
 /// True if an expression follows a token, so that a following `if` begins a conditional expression and no statement.
 pub(super) fn is_before_expression(token: &str) -> bool {
-    ["=", "(", ","].contains(&token) || token != "else" && WORDS_BEFORE_OPERANDS.contains(&token)
+    ["=", "(", ","].contains(&token) || token != "else" && is_before_value(token)
 }
 
 /// Length of the word at the beginning of a text (bytes).
@@ -163,15 +172,27 @@ pub(super) fn is_word(letter: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::word::WORDS;
+
+    #[test]
+    fn every_word_of_the_grammar_is_in_the_table() {
+        let rules = Rule::all_rules().iter().filter(|rule| {
+            let rule = format!("{rule:?}");
+            rule.starts_with("kw_") || rule.starts_with("cw_")
+        });
+        for &rule in rules.clone() {
+            assert!(word_of(rule).is_some_and(|word| format!("{rule:?}").ends_with(word.text)), "{rule:?}");
+        }
+        assert!(rules.count() >= 60);
+    }
 
     #[test]
     fn a_word_of_the_language_is_no_name_and_a_longer_word_is() {
         let is_name =
             |text: &str| derived::FsmParser::parse(Rule::name, text).is_ok_and(|pairs| pairs.as_str() == text);
-        assert!(KEYWORDS.len() >= 30);
-        for keyword in KEYWORDS.iter() {
-            assert!(!is_name(keyword), "{keyword}");
-            assert!(is_name(&format!("{keyword}s")), "{keyword}");
+        for word in WORDS.iter().filter(|word| word.text != "->") {
+            assert_eq!(is_name(word.text), !is_keyword(word.text), "{}", word.text);
+            assert!(is_name(&format!("{}s", word.text)), "{}", word.text);
         }
     }
 }

@@ -42,12 +42,14 @@ mod syntax_error;
 mod test;
 mod types;
 mod unit;
+mod word;
 
 pub use analysis::ProvedContract;
 pub use defaults::with_defaults;
 pub use format::format;
 pub use load::Library;
 pub use test::{Expectation, ParameterRange, PlotFigure, PolicyTest, RunFigure, TestScenes};
+pub use word::scopes;
 
 use load::{Files, Loaded};
 use vibrissa_runtime::machine::{Artifact, Program};

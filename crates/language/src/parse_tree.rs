@@ -4,7 +4,7 @@ use pest::Token;
 
 use vibrissa_text::diagnostic::Span;
 
-use super::grammar::Rule;
+use super::grammar::{Rule, word_of};
 
 /// A matched rule. In a list, its inner matches follow it directly.
 #[derive(Debug, Clone, Copy)]
@@ -113,65 +113,23 @@ impl<'i> Iterator for Pairs<'i> {
     }
 }
 
-/// True if a rule is a keyword or a mark without content.
+/// True if a rule is a word or a mark that the syntax tree does not need.
 fn is_marker(rule: Rule) -> bool {
-    matches!(
+    let is_read = matches!(
         rule,
-        Rule::kw_machine
-            | Rule::kw_library
-            | Rule::tests_word
-            | Rule::kw_use
-            | Rule::kw_by
-            | Rule::kw_needs
-            | Rule::kw_param
-            | Rule::kw_initial
-            | Rule::kw_type
-            | Rule::kw_let
-            | Rule::kw_law
-            | Rule::kw_state
-            | Rule::kw_always
-            | Rule::kw_assume
-            | Rule::kw_never
-            | Rule::within
-            | Rule::kw_failsafe
-            | Rule::kw_when
-            | Rule::kw_after
-            | Rule::kw_for
-            | Rule::kw_in
-            | Rule::kw_of
-            | Rule::kw_if
-            | Rule::kw_then
-            | Rule::kw_else
-            | Rule::kw_do
-            | Rule::kw_record
-            | Rule::kw_mark
-            | Rule::kw_steer
-            | Rule::kw_along
-            | Rule::kw_at
-            | Rule::kw_facing
-            | Rule::kw_turning
-            | Rule::kw_hold
-            | Rule::kw_stop
-            | Rule::kw_var
-            | Rule::kw_set
-            | Rule::kw_behaviour
-            | Rule::kw_monitor
-            | Rule::kw_is
-            | Rule::on_word
-            | Rule::tell_word
-            | Rule::plot_word
-            | Rule::log_word
-            | Rule::list_word
-            | Rule::kw_entry
-            | Rule::kw_exit
-            | Rule::kw_test
-            | Rule::kw_property
-            | Rule::spanning
-            | Rule::contour_word
-            | Rule::points
-            | Rule::apart
-            | Rule::kw_expect
-            | Rule::open
+        Rule::kw_whisker
+            | Rule::kw_resume
+            | Rule::kw_body
+            | Rule::kw_true
+            | Rule::kw_false
+            | Rule::kw_and
+            | Rule::kw_or
+            | Rule::kw_not
+            | Rule::cw_fitted
+    );
+    let is_mark = matches!(
+        rule,
+        Rule::open
             | Rule::close
             | Rule::open_brace
             | Rule::close_brace
@@ -183,5 +141,6 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::equals
             | Rule::arrow
             | Rule::EOI
-    )
+    );
+    is_mark || word_of(rule).is_some() && !is_read
 }

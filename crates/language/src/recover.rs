@@ -10,46 +10,12 @@ use std::collections::HashSet;
 use vibrissa_text::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
 
 use super::ast::File;
-use super::grammar::{brackets, is_before_expression, is_word};
+use super::grammar::{brackets, is_before_expression, is_keyword, is_word};
 use super::parse::parse;
+use super::word::{Word, reserved, word};
 
 /// The maximum number of parses of a text.
 const ATTEMPTS: usize = 20;
-
-/// Keywords that begin an item.
-const ITEM_WORDS: [&str; 19] = [
-    "type",
-    "whisker",
-    "needs",
-    "param",
-    "initial",
-    "let",
-    "law",
-    "state",
-    "behaviour",
-    "monitor",
-    "always",
-    "assume",
-    "never",
-    "failsafe",
-    "use",
-    "test",
-    "property",
-    "machine",
-    "library",
-];
-/// Keywords among them that also occur within braces.
-const INNER_WORDS: [&str; 7] = ["initial", "let", "state", "always", "assume", "never", "failsafe"];
-/// A word that begins an item and is a name anywhere else.
-const CONTEXTUAL_WORD: &str = "contour";
-/// Keywords that begin a statement or a memory declaration, in a state or outside.
-const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
-/// Keywords that can begin a continuation line of an item.
-const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
-/// Keywords that begin other parts of a state.
-const PART_WORDS: [&str; 9] = ["let", "when", "after", "entry", "exit", "assume", "never", "always", "failsafe"];
-/// Words that begin another part of a state at the beginning of a line, and are names anywhere else.
-const CONTEXTUAL_PART_WORDS: [&str; 4] = ["on", "tell", "plot", "log"];
 
 /// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]
@@ -184,27 +150,32 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
     {
         let (starts, end) = statements(text, brace + 1);
         let is_whole = |region: &Span| braces_close(&text[region.start..region.end]);
-        regions.extend(around(text, at, (&starts, &PART_WORDS), (brace + 1, end)).into_iter().filter(is_whole));
+        regions.extend(around(text, at, (&starts, Word::begins_part), (brace + 1, end)).into_iter().filter(is_whole));
     }
     // A file cannot be parsed without the machine's name.
     let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2);
     if let Some(first) = tokens.next() {
-        regions.extend(around(text, at, (&starts, &ITEM_WORDS), (first.start, text.len())));
+        regions.extend(around(text, at, (&starts, Word::begins_item), (first.start, text.len())));
     }
     regions
 }
 
-/// The spans around `at` that may contain the error, among parts that begin at `starts`. Each part begins with one of
-/// `words` or with a statement keyword.
-fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, high): (usize, usize)) -> Vec<Span> {
+/// The spans around `at` that may contain the error, among parts that begin at `starts`. Each part begins with a word
+/// for which `begins` is true, or with a statement.
+fn around(
+    text: &str,
+    at: usize,
+    (starts, begins): (&[usize], fn(&Word) -> bool),
+    (low, high): (usize, usize),
+) -> Vec<Span> {
     if at < low || at > high {
         return Vec::new();
     }
     let before = starts.iter().copied().take_while(|&start| start < at).last().unwrap_or(low);
     let behind = starts.iter().copied().find(|&start| start > at).unwrap_or(high);
-    let word: &str = text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default();
+    let word = word(text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default());
     let is_start = starts.contains(&at);
-    if is_start && (words.contains(&word) || STATEMENT_WORDS.contains(&word) || word == CONTEXTUAL_WORD) {
+    if is_start && word.is_some_and(|word| begins(word) || word.begins_statement()) {
         // Either the previous part lacks its end, or this part is misplaced.
         vec![Span::new(before, at), Span::new(at, behind)]
     } else if is_start || indent(text, at).is_some_and(|own| Some(own) <= indent(text, before)) {
@@ -243,22 +214,26 @@ fn items(text: &str) -> (bool, Vec<usize>) {
             ")" => parentheses = parentheses.saturating_sub(1),
             _ if !word.starts_with(is_word) => {}
             _ => {
-                let is_item = ITEM_WORDS.contains(&word);
+                let known = reserved(word);
+                let is_item = known.is_some_and(Word::begins_item);
                 let is_first = token.indent.is_some();
                 let is_outermost = token.indent.is_some_and(|own| own <= indent);
                 // With more indentation, or after another word, it belongs to a state, or to a `whisker` or an `else`
                 // before its `if`.
                 let begins = if is_value {
                     false
-                } else if STATEMENT_WORDS.contains(&word) {
+                } else if known.is_some_and(Word::begins_statement) {
                     is_outermost && (braces == 0 || !is_balanced)
-                } else if braces > 0 {
-                    is_item && !is_balanced && if INNER_WORDS.contains(&word) { is_outermost } else { is_first }
                 } else if is_item {
-                    parentheses == 0 || is_first
+                    let is_inner = known.is_some_and(Word::begins_part);
+                    let is_placed =
+                        if is_inner && is_first { is_outermost } else { is_first || braces + parentheses == 0 };
+                    is_placed && (braces == 0 || is_first && !is_balanced)
+                } else if braces > 0 {
+                    false
                 } else {
                     let names = |next: &Token| next.indent.is_none() && text[next.start..].starts_with(is_word);
-                    is_outermost && !CONTINUING_WORDS.contains(&word) && tokens.peek().is_some_and(names)
+                    is_outermost && !known.is_some_and(Word::continues) && tokens.peek().is_some_and(names)
                 };
                 if begins {
                     starts.push(token.start);
@@ -292,9 +267,8 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
             word if braces == 0
                 && !is_value
                 && is_begin
-                && (STATEMENT_WORDS.contains(&word)
-                    || PART_WORDS.contains(&word)
-                    || CONTEXTUAL_PART_WORDS.contains(&word) && token.indent.is_some())
+                && self::word(word).is_some_and(|word| word.begins_part() || word.begins_statement())
+                && (token.indent.is_some() || is_keyword(word))
                 && (parentheses == 0 || token.indent.is_some()) =>
             {
                 starts.push(start + token.start);

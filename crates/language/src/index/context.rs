@@ -1,6 +1,7 @@
 //! The context of completion, determined by the text before the position.
 
 use crate::format::{Token, TokenKind, tokens};
+use crate::word::{Word, word};
 use vibrissa_declare::catalogue;
 use vibrissa_text::diagnostic::Span;
 
@@ -8,7 +9,7 @@ use super::declare::{Frame, declare, is_balanced, span_of};
 
 /// The construct that is expected at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Expected {
+pub(crate) enum Expected {
     Nothing,
     /// A member of the operand before the `.` at this byte.
     Member(usize),
@@ -68,7 +69,7 @@ pub(super) enum Expected {
 
 /// The kind of the innermost braces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Level {
+pub(crate) enum Level {
     /// Outside of all braces.
     Outside,
     /// Braces of a state.
@@ -225,33 +226,17 @@ fn known_apart(typed: Span, number: Token<'_>) -> bool {
     typed.start > number.start + number.text.len() + 1
 }
 
-fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
+fn behind_word(text: &str, statement: &[Token<'_>], level: Level) -> Expected {
     let head = statement.first().map(|token| token.text);
-    match word {
-        "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
+    match text {
+        "of" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
-        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
-        | "exit" | "test" | "property" | "behaviour" | "monitor" | "plot" | "log" => Expected::Nothing,
-        "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,
-        "tell" => Expected::Monitor,
-        "is" => Expected::Behaviour,
-        "on" => Expected::Connected,
-        "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
-        "set" => Expected::Memory,
-        "mark" => Expected::Mark,
-        "needs" => Expected::Need,
-        "by" => Expected::TipModel,
-        "use" => Expected::File,
-        "resume" => Expected::Resumed,
-        "failsafe" => Expected::Only("->"),
-        "of" => Expected::Dimension,
         "always" if level == Level::Outside => Expected::Only("when"),
         "else" => Expected::Only("if"),
         "if" if head == Some("whisker") => Expected::Only("fitted"),
-        "true" | "false" | "body" | "hold" | "stop" | "apart" => more(statement, level),
-        _ => Expected::Value,
+        _ => word(text).map_or(Some(Expected::Value), Word::next).unwrap_or_else(|| more(statement, level)),
     }
 }
 

@@ -10,9 +10,9 @@ use crate::types::{Choices, Type};
 use vibrissa_runtime::units::{Dimension, parse_unit};
 use vibrissa_text::diagnostic::Span;
 
-use super::keyword::{Position, keyword};
 use super::symbol::{Symbol, SymbolKind};
 use super::type_name::type_name;
+use crate::word::{Position, word};
 
 /// The content of a pair of braces, or the text outside of all braces.
 #[derive(Debug, Clone, Default)]
@@ -104,7 +104,7 @@ impl<'t> Declared<'t> {
         let token = tokens[index];
         let before = index.checked_sub(1).map(|before| tokens[before]);
         let is_type = token.text == "whisker" && before.is_some_and(|before| before.is(":"));
-        let Some(known) = keyword(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
+        let Some(known) = word(token.text).filter(|word| word.begins() && !is_type) else { return };
         // `always when` and `else if` are one statement, and `-> exit name` is a target.
         let is_target = token.text == "exit" && before.is_some_and(|before| before.is("->"));
         if is_target || before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
@@ -113,7 +113,7 @@ impl<'t> Declared<'t> {
         if token.text == "if" && before.is_some_and(|before| is_before_expression(before.text)) {
             return;
         }
-        if !self.is_balanced && known.positions.contains(&Position::Item) && begins_line_unindented(text, token.start) {
+        if !self.is_balanced && known.is_at(Position::Item) && begins_line_unindented(text, token.start) {
             while self.frames.len() > 1 {
                 self.close(self.end);
             }

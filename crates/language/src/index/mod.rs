@@ -11,7 +11,6 @@ mod context;
 mod declare;
 mod hover;
 mod import;
-mod keyword;
 mod operands;
 mod origin;
 mod rename;
@@ -32,6 +31,8 @@ use super::types::Type;
 use import::Import;
 use resolve::Resolved;
 use symbol::{Meaning, Use};
+
+pub(crate) use context::Expected;
 
 pub use candidate::{Candidate, CandidateKind};
 pub use hover::Hover;

@@ -12,10 +12,10 @@ use vibrissa_text::diagnostic::{Source, Span};
 use super::applied::{self, Applied};
 use super::declare::span_of;
 use super::import::Import;
-use super::keyword::{Keyword, Position, keyword};
 use super::operands::{Operands, Owner};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
+use crate::word::{Position, Word, word};
 
 /// The words of a text with their meanings, in the order of the text.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -70,10 +70,10 @@ pub(super) fn resolve(
             TokenKind::Name
                 if is_before("mark") || is_before("needs") || is_before("=") && is_element(tokens, index + 3) =>
             {
-                keyword(token.text).filter(|word| is_contextual(word)).map(|word| Meaning::Keyword(word.text))
+                word(token.text).filter(|word| is_contextual(word)).map(|word| Meaning::Keyword(word.text))
             }
             TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
-                keyword(token.text).map(|word| Meaning::Keyword(word.text))
+                word(token.text).map(|word| Meaning::Keyword(word.text))
             }
             // A member, or an inner state: `-> Outer(w).Inner`.
             TokenKind::Name if token.text == "over" && before.is_some_and(|before| before.kind == TokenKind::Text) => {
@@ -116,7 +116,7 @@ pub(super) fn resolve(
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
                 names.meaning(span_of(*token), token.text, role)
             }
-            TokenKind::Keyword => keyword(token.text).map(|word| Meaning::Keyword(word.text)),
+            TokenKind::Keyword => word(token.text).map(|word| Meaning::Keyword(word.text)),
             TokenKind::Unit => {
                 parse_unit(&token.text.replace('*', " ")).ok().map(|unit| Meaning::Unit(unit.dimension()))
             }
@@ -167,10 +167,8 @@ fn is_element(tokens: &[Token<'_>], index: usize) -> bool {
 }
 
 /// True if a word has its meaning only after `mark`, `needs` or the title of a property.
-fn is_contextual(word: &Keyword) -> bool {
-    [[Position::Mark], [Position::Need], [Position::Property], [Position::Type]]
-        .iter()
-        .any(|positions| word.positions == positions)
+fn is_contextual(word: &Word) -> bool {
+    [Position::Mark, Position::Need, Position::Property, Position::Type].iter().any(|&only| word.is_only_at(only))
 }
 
 /// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.
@@ -254,7 +252,7 @@ impl<'s> Names<'s> {
         }
         match FUNCTIONS.iter().position(|&(known, ..)| known == name) {
             Some(function) => Some(Meaning::Function(function)),
-            None => keyword(name).filter(|word| !is_contextual(word)).map(|word| Meaning::Keyword(word.text)),
+            None => word(name).filter(|word| !is_contextual(word)).map(|word| Meaning::Keyword(word.text)),
         }
     }
 
