@@ -10,6 +10,7 @@ use pest::iterators::Pairs;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::parse_tree::{self, Match};
+use super::scan::{is_word, scan};
 use super::standard::MODULES;
 use super::syntax_error::syntax_error;
 use super::word::{Word, is_before_value, word};
@@ -51,8 +52,13 @@ pub(super) fn matches(source: &Source) -> Result<Cow<'static, [Match]>, Box<Diag
     }
 }
 
+/// The matches of tokens in any text.
+pub(super) fn tokens(text: &str) -> Vec<Match> {
+    derived::FsmParser::parse(Rule::tokens, text).map(parse_tree::flatten).unwrap_or_default()
+}
+
 /// Parses a whole file.
-pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
+fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
     if source.text.len() > LENGTH_LIMIT {
         let label = format!("the text has {} bytes", source.text.len());
         let span = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);
@@ -108,40 +114,25 @@ fn too_deep(text: &str) -> Option<Span> {
 /// Span of the first bracket that exceeds the nesting limit.
 pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
     let mut opened = Vec::new();
-    // The last token, except bars.
+    // The last lexeme, except bars and strings.
     let mut before = "";
-    let mut at = 0;
-    while let Some(&byte) = text.as_bytes().get(at) {
-        let rest = &text[at..];
-        let mut length = 1;
-        match byte {
-            b' ' | b'\t' | b'\r' | b'\n' => length = rest.len() - rest.trim_ascii_start().len(),
-            b'#' => length = rest.find('\n').unwrap_or(rest.len()),
-            b'"' => length = rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
-            b'(' | b'{' | b'[' => {
-                opened.push(at);
-                before = &rest[..1];
-            }
-            b')' | b'}' | b']' => {
-                opened.pop();
-                before = &rest[..1];
-            }
-            b'|' if ends_operand(before) => {
+    for lexeme in scan(text) {
+        match lexeme.text {
+            "|" if ends_operand(before) => {
                 opened.pop();
             }
-            b'|' => opened.push(at),
-            _ => {
-                let word = word_length(rest);
-                let sign = || rest.chars().next().map_or(1, char::len_utf8);
-                length = if word > 0 { word } else { sign() };
-                let is_blank = word == 0 && rest.starts_with(char::is_whitespace);
-                before = if is_blank { before } else { &rest[..length] };
+            "(" | "{" | "[" | "|" => opened.push(lexeme.start),
+            ")" | "}" | "]" => {
+                opened.pop();
             }
+            _ => {}
         }
         if opened.len() > NESTING_LIMIT {
-            return Err(Span::new(at, at + 1));
+            return Err(Span::new(lexeme.start, lexeme.start + 1));
         }
-        at += length;
+        if lexeme.text != "|" && !lexeme.text.starts_with('"') {
+            before = lexeme.text;
+        }
     }
     Ok(opened)
 }
@@ -154,19 +145,6 @@ fn ends_operand(before: &str) -> bool {
 /// True if an expression follows a token, so that a following `if` begins a conditional expression and no statement.
 pub(super) fn is_before_expression(token: &str) -> bool {
     ["=", "(", ","].contains(&token) || token != "else" && is_before_value(token)
-}
-
-/// Length of the word at the beginning of a text (bytes).
-fn word_length(text: &str) -> usize {
-    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
-    match text.bytes().enumerate().find(|&(_, byte)| !is_plain(byte)) {
-        Some((_, byte)) if !byte.is_ascii() => text.find(|letter| !is_word(letter)).unwrap_or(text.len()),
-        end => end.map_or(text.len(), |(at, _)| at),
-    }
-}
-
-pub(super) fn is_word(letter: char) -> bool {
-    letter.is_alphanumeric() || letter == '_'
 }
 
 #[cfg(test)]

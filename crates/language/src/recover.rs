@@ -10,8 +10,9 @@ use std::collections::HashSet;
 use vibrissa_text::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
 
 use super::ast::File;
-use super::grammar::{brackets, is_before_expression, is_keyword, is_word};
+use super::grammar::{brackets, is_before_expression, is_keyword};
 use super::parse::parse;
+use super::scan::{Lexeme, are_braces_balanced, is_word, scan};
 use super::word::{Word, reserved, word};
 
 /// The maximum number of parses of a text.
@@ -60,7 +61,7 @@ pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) 
                 let is_new = |region: &Span| !rest.slice(*region).trim().is_empty();
                 let index = candidates.iter().position(is_new)?;
                 let region = candidates.remove(index);
-                recovery.lost_use |= Tokens::new(rest.slice(region)).any(|token| token.of(rest.slice(region)) == "use");
+                recovery.lost_use |= scan(rest.slice(region)).any(|lexeme| lexeme.text == "use");
                 recovery.lost.extend(names(rest.slice(region)));
                 rest = Cow::Owned(Source::new(rest.name.clone(), blanked(&rest.text, region)));
             }
@@ -122,8 +123,8 @@ impl Recovery {
 /// and all words after a comma.
 fn names(text: &str) -> impl Iterator<Item = String> {
     let mut may_be_name = false;
-    Tokens::new(text).filter_map(move |token| {
-        let word = token.of(text);
+    scan(text).filter_map(move |lexeme| {
+        let word = lexeme.text;
         let is_word = word.starts_with(is_word);
         let is_name = is_word && may_be_name;
         may_be_name = is_word || word == ",";
@@ -149,12 +150,11 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
         && let Some(&brace) = opened.iter().rev().find(|&&bracket| text[bracket..].starts_with('{'))
     {
         let (starts, end) = statements(text, brace + 1);
-        let is_whole = |region: &Span| braces_close(&text[region.start..region.end]);
+        let is_whole = |region: &Span| are_braces_balanced(&text[region.start..region.end]);
         regions.extend(around(text, at, (&starts, Word::begins_part), (brace + 1, end)).into_iter().filter(is_whole));
     }
     // A file cannot be parsed without the machine's name.
-    let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2);
-    if let Some(first) = tokens.next() {
+    if let Some(first) = scan(text).skip_while(|lexeme| !lexeme.is_heading()).nth(2) {
         regions.extend(around(text, at, (&starts, Word::begins_item), (first.start, text.len())));
     }
     regions
@@ -198,13 +198,13 @@ fn indent(text: &str, at: usize) -> Option<usize> {
 /// the previous item. In a text with unclosed braces, an item keyword counts at the beginning of a line. It must occur
 /// only in items, or have at most the indentation of the previous item.
 fn items(text: &str) -> (bool, Vec<usize>) {
-    let is_balanced = braces_close(text);
+    let is_balanced = are_braces_balanced(text);
     let (mut braces, mut parentheses, mut indent) = (0_usize, 0_usize, 0);
     let mut starts = Vec::new();
-    let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2).peekable();
+    let mut lexemes = scan(text).skip_while(|lexeme| !lexeme.is_heading()).skip(2).peekable();
     let mut before = "";
-    while let Some(token) = tokens.next() {
-        let word = token.of(text);
+    while let Some(lexeme) = lexemes.next() {
+        let word = lexeme.text;
         let is_value = word == "if" && is_before_expression(before);
         before = word;
         match word {
@@ -216,8 +216,8 @@ fn items(text: &str) -> (bool, Vec<usize>) {
             _ => {
                 let known = reserved(word);
                 let is_item = known.is_some_and(Word::begins_item);
-                let is_first = token.indent.is_some();
-                let is_outermost = token.indent.is_some_and(|own| own <= indent);
+                let is_first = lexeme.indent.is_some();
+                let is_outermost = lexeme.indent.is_some_and(|own| own <= indent);
                 // With more indentation, or after another word, it belongs to a state, or to a `whisker` or an `else`
                 // before its `if`.
                 let begins = if is_value {
@@ -232,12 +232,12 @@ fn items(text: &str) -> (bool, Vec<usize>) {
                 } else if braces > 0 {
                     false
                 } else {
-                    let names = |next: &Token| next.indent.is_none() && text[next.start..].starts_with(is_word);
-                    is_outermost && !known.is_some_and(Word::continues) && tokens.peek().is_some_and(names)
+                    let names = |next: &Lexeme<'_>| next.indent.is_none() && next.text.starts_with(is_word);
+                    is_outermost && !known.is_some_and(Word::continues) && lexemes.peek().is_some_and(names)
                 };
                 if begins {
-                    starts.push(token.start);
-                    (braces, parentheses, indent) = (0, 0, token.indent.unwrap_or(indent));
+                    starts.push(lexeme.start);
+                    (braces, parentheses, indent) = (0, 0, lexeme.indent.unwrap_or(indent));
                 }
             }
         }
@@ -252,14 +252,14 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
     let mut before = "";
     // True if the last token is the end of an arrow.
     let mut is_target = false;
-    for token in Tokens::new(&text[start..]) {
-        let is_begin = !std::mem::replace(&mut is_target, text[start + token.start..].starts_with('>'));
-        let word = &text[start + token.start..start + token.end];
+    for lexeme in scan(&text[start..]) {
+        let is_begin = !std::mem::replace(&mut is_target, lexeme.text == ">");
+        let word = lexeme.text;
         let is_value = word == "if" && is_before_expression(before);
         before = word;
         match word {
             "{" => braces += 1,
-            "}" if braces == 0 => return (starts, start + token.start),
+            "}" if braces == 0 => return (starts, start + lexeme.start),
             "}" => braces -= 1,
             "(" => parentheses += 1,
             ")" => parentheses = parentheses.saturating_sub(1),
@@ -268,90 +268,14 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
                 && !is_value
                 && is_begin
                 && self::word(word).is_some_and(|word| word.begins_part() || word.begins_statement())
-                && (token.indent.is_some() || is_keyword(word))
-                && (parentheses == 0 || token.indent.is_some()) =>
+                && (lexeme.indent.is_some() || is_keyword(word))
+                && (parentheses == 0 || lexeme.indent.is_some()) =>
             {
-                starts.push(start + token.start);
+                starts.push(start + lexeme.start);
                 parentheses = 0;
             }
             _ => {}
         }
     }
     (starts, text.len())
-}
-
-/// True if the braces of a text are balanced.
-fn braces_close(text: &str) -> bool {
-    let mut depth = 0_usize;
-    for token in Tokens::new(text) {
-        match token.of(text) {
-            "{" => depth += 1,
-            "}" if depth == 0 => return false,
-            "}" => depth -= 1,
-            _ => {}
-        }
-    }
-    depth == 0
-}
-
-/// A word, a string, or a mark.
-struct Token {
-    start: usize,
-    end: usize,
-    /// Indentation, if the token is the first of its line.
-    indent: Option<usize>,
-}
-
-impl Token {
-    fn of<'t>(&self, text: &'t str) -> &'t str {
-        &text[self.start..self.end]
-    }
-
-    /// True if it is the keyword at the beginning of a file.
-    fn is_heading(&self, text: &str) -> bool {
-        ["machine", "library", "tests"].contains(&self.of(text))
-    }
-}
-
-/// The tokens of a text, without comments.
-struct Tokens<'t> {
-    text: &'t str,
-    at: usize,
-    /// Start of the line, while only blanks have occurred in it.
-    line: Option<usize>,
-}
-
-impl<'t> Tokens<'t> {
-    fn new(text: &'t str) -> Self {
-        Self { text, at: 0, line: Some(0) }
-    }
-}
-
-impl Iterator for Tokens<'_> {
-    type Item = Token;
-
-    fn next(&mut self) -> Option<Token> {
-        loop {
-            let rest = &self.text[self.at..];
-            let letter = rest.chars().next()?;
-            let start = self.at;
-            match letter {
-                '\n' => {
-                    self.at += 1;
-                    self.line = Some(self.at);
-                }
-                '#' => self.at += rest.find('\n').unwrap_or(rest.len()),
-                _ if letter.is_whitespace() => self.at += letter.len_utf8(),
-                _ => {
-                    self.at += match letter {
-                        '"' => rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
-                        _ if is_word(letter) => rest.find(|letter| !is_word(letter)).unwrap_or(rest.len()),
-                        _ => letter.len_utf8(),
-                    };
-                    let indent = self.line.take().map(|line| start - line);
-                    return Some(Token { start, end: self.at, indent });
-                }
-            }
-        }
-    }
 }

@@ -5,7 +5,8 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::foreign_syntax::advice_for;
-use super::grammar::{Rule, brackets, is_keyword, is_word, word_of};
+use super::grammar::{Rule, brackets, is_keyword, word_of};
+use super::scan::is_word;
 use super::suggestion::did_you_mean;
 use super::word::{Position, Word, reserved, word, words_at};
 

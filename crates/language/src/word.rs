@@ -139,6 +139,11 @@ impl Word {
         self.is_at(Position::Inside) || self.is_at(Position::Value)
     }
 
+    /// True if the word is a value by itself.
+    pub(super) fn is_value(&self) -> bool {
+        self.is_at(Position::Value) && self.next().is_none()
+    }
+
     /// True if the word is an operator.
     pub(super) fn is_operator(&self) -> bool {
         self.class.role == Role::Operator

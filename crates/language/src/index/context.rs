@@ -1,11 +1,12 @@
 //! The context of completion, determined by the text before the position.
 
-use crate::format::{Token, TokenKind, tokens};
+use crate::scan::are_braces_balanced;
+use crate::token::{Kind as TokenKind, Token, tokens};
 use crate::word::{Word, word};
 use vibrissa_declare::catalogue;
 use vibrissa_text::diagnostic::Span;
 
-use super::declare::{Frame, declare, is_balanced, span_of};
+use super::declare::{Frame, declare};
 
 /// The construct that is expected at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,12 +125,12 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     }
     known.retain(|token| token.kind != TokenKind::Comment);
     let is_word = |token: &&Token<'_>| matches!(token.kind, TokenKind::Name | TokenKind::Keyword | TokenKind::Unit);
-    let typed = known.last().filter(is_word).map(|token| span_of(*token)).filter(|span| span.end == at);
+    let typed = known.last().filter(is_word).map(Token::span).filter(|span| span.end == at);
     if typed.is_some() {
         known.pop();
     }
     let typed = typed.unwrap_or(Span::new(at, at));
-    let declared = declare(before, &known, is_balanced(&tokens(text)));
+    let declared = declare(before, &known, are_braces_balanced(text));
     let frame = declared.frames.last().cloned().unwrap_or_default();
     let level = match frame.head {
         None => Level::Outside,
@@ -180,7 +181,6 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, "(") if level == Level::Test && matches!(behind(known, 1), Some("visits" | "time_in")) => {
             Expected::State
         }
-        (TokenKind::Name, "over") if head == Some("property") => Expected::Family,
         (TokenKind::Mark, "(" | ",") if head == Some("property") => {
             family_of(statement).map_or(Expected::Nothing, Expected::FamilyParameter)
         }

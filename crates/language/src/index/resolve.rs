@@ -3,14 +3,13 @@
 use std::collections::HashMap;
 
 use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS};
-use crate::format::{Token, TokenKind};
+use crate::token::{Kind as TokenKind, Token};
 use crate::types::{Compound, Type, dimension};
 use vibrissa_declare::catalogue::{self, Entry};
 use vibrissa_runtime::units::parse_unit;
 use vibrissa_text::diagnostic::{Source, Span};
 
 use super::applied::{self, Applied};
-use super::declare::span_of;
 use super::import::Import;
 use super::operands::{Operands, Owner};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
@@ -61,8 +60,7 @@ pub(super) fn resolve(
                 type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
                 let built_in = named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type);
                 let own = names.own_type(token.text).filter(|_| built_in.is_none());
-                let argument =
-                    index.checked_sub(2).and_then(|name| names.declared.get(&span_of(tokens[name])).copied());
+                let argument = index.checked_sub(2).and_then(|name| names.declared.get(&tokens[name].span()).copied());
                 resolved.behaviours.extend(argument.zip(own.filter(|&own| symbols[own].kind == SymbolKind::Monitor)));
                 built_in.or_else(|| own.map(|index| Meaning::Symbol(index, Role::Reads)))
             }
@@ -76,9 +74,6 @@ pub(super) fn resolve(
                 word(token.text).map(|word| Meaning::Keyword(word.text))
             }
             // A member, or an inner state: `-> Outer(w).Inner`.
-            TokenKind::Name if token.text == "over" && before.is_some_and(|before| before.kind == TokenKind::Text) => {
-                Some(Meaning::Keyword("over"))
-            }
             TokenKind::Name if is_family(&tokens[..index]) => {
                 family = catalogue::entry(token.text);
                 family.map(Meaning::Family)
@@ -100,13 +95,13 @@ pub(super) fn resolve(
                 if tokens.get(index + 1).is_some_and(|next| next.is(":"))
                     && let Some(argument) = operands.argument(token.text) =>
             {
-                let is_declared = symbols[argument].span == span_of(*token);
+                let is_declared = symbols[argument].span == token.span();
                 Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
             }
             TokenKind::Name if is_before("exit") && index > 1 && tokens[index - 2].is("->") => {
                 names.of_kind(token.text, SymbolKind::Exit).map(|exit| Meaning::Symbol(exit, Role::Reads))
             }
-            TokenKind::Name if is_before("on") => match names.declared.get(&span_of(*token)) {
+            TokenKind::Name if is_before("on") => match names.declared.get(&token.span()) {
                 Some(&event) if symbols[event].kind == SymbolKind::Event => {
                     Some(Meaning::Symbol(event, Role::Declares))
                 }
@@ -114,7 +109,7 @@ pub(super) fn resolve(
             },
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
-                names.meaning(span_of(*token), token.text, role)
+                names.meaning(token.span(), token.text, role)
             }
             TokenKind::Keyword => word(token.text).map(|word| Meaning::Keyword(word.text)),
             TokenKind::Unit => {
@@ -134,7 +129,7 @@ pub(super) fn resolve(
             operands.note_monitor(argument, &resolved.behaviours);
         }
         if is_word || token.kind == TokenKind::Unit {
-            resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
+            resolved.uses.push(Use { span: token.span(), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
     }
     resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, own, import)));
@@ -223,7 +218,7 @@ impl<'s> Names<'s> {
     /// True if the `:` before a token follows the name of a declared argument.
     fn is_declaration(&self, tokens: &[Token<'_>], index: usize) -> bool {
         let name = index.checked_sub(2).and_then(|name| tokens.get(name));
-        name.is_some_and(|name| self.declared.contains_key(&span_of(*name)))
+        name.is_some_and(|name| self.declared.contains_key(&name.span()))
     }
 
     fn advance(&mut self, at: usize) {
