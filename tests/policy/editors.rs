@@ -4,50 +4,34 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 use serde_json::{Value, json};
-use vibrissa_runtime::units::{Dimension, parse_unit, units_of};
+use vibrissa_language::scopes;
 
-const LANGUAGE: &str = include_str!("../../grammar/fsm.pest");
 const EDITORS: &str = include_str!("../../editors/vscode/syntaxes/fsm.tmLanguage.json");
 
-fn words<'t>(words: impl IntoIterator<Item = &'t str>) -> BTreeSet<String> {
-    words.into_iter().map(str::to_owned).collect()
-}
-
-/// The words that a rule of the editors' grammar lists, and those of the rules in it.
-fn listed(rule: &Value) -> BTreeSet<String> {
-    let inner = rule["patterns"].as_array().into_iter().flatten().flat_map(listed);
-    let list = rule["match"].as_str().and_then(|list| list.split_once(r")\b")?.0.rsplit_once('('));
-    let own = list.map(|(_, list)| words(list.split('|'))).unwrap_or_default();
-    inner.chain(own).collect()
-}
-
-fn rule(name: &str) -> Value {
-    serde_json::from_str::<Value>(EDITORS).unwrap()["repository"][name].take()
-}
-
-#[test]
-fn the_editors_keywords_are_those_of_the_language() {
-    let rules = LANGUAGE.lines().filter(|line| line.starts_with("kw_"));
-    let keywords = words(rules.map(|rule| rule.split('"').nth(1).unwrap()));
-    assert!(keywords.len() >= 30 && keywords.contains("state"), "{keywords:?}");
-    assert_eq!(listed(&rule("keywords")), keywords);
+/// The editors' grammar with the words of the language in place of those that it lists. The list of a scope is the first
+/// group of plain words in a rule with its name.
+fn with_words_of_the_language(grammar: &str) -> String {
+    let mut grammar = grammar.to_owned();
+    for (scope, words) in scopes() {
+        let list = grammar.match_indices(&format!("\"{scope}\"")).find_map(|(at, _)| {
+            let rule = &grammar[at..at + grammar[at..].find('}')?];
+            let open =
+                rule.match_indices('(').find(|(open, _)| rule[open + 1..].starts_with(char::is_alphabetic))?.0 + 1;
+            Some(at + open..at + open + rule[open..].find(')')?)
+        });
+        grammar.replace_range(list.unwrap_or_else(|| panic!("no words have the scope {scope}")), &words.join("|"));
+    }
+    grammar
 }
 
 #[test]
-fn the_editors_units_are_those_of_the_language() {
-    let listed = listed(&rule("units"));
-    assert!(listed.iter().all(|unit| parse_unit(unit).is_ok()), "{listed:?}");
-    let dimensions = [
-        Dimension::LENGTH,
-        Dimension::ANGLE,
-        Dimension::TIME,
-        Dimension::MASS,
-        Dimension::FREQUENCY,
-        Dimension::FORCE,
-        Dimension::PRESSURE,
-    ];
-    let units: BTreeSet<String> = dimensions.into_iter().flat_map(units_of).collect();
-    assert_eq!(listed, units);
+fn the_editors_words_are_those_of_the_language() {
+    let generated = with_words_of_the_language(EDITORS);
+    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        std::fs::write(format!("{FOLDER}/syntaxes/fsm.tmLanguage.json"), &generated).unwrap();
+    } else {
+        assert_eq!(EDITORS, generated, "INSTA_UPDATE=always writes the words again");
+    }
 }
 
 #[test]

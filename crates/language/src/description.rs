@@ -6,10 +6,10 @@ use vibrissa_text::diagnostic::{Source, Span};
 
 use super::ast;
 use super::format;
-use super::format::comment_behind;
-use super::grammar::is_word;
 use super::load::Files;
 use super::lower::Lowered;
+use super::scan::{is_word, scan_all};
+use super::word::reserved;
 use vibrissa_runtime::machine::{Contract, DESCRIPTION_LIMIT};
 
 /// The description of the item whose name is at `name`: the comment at the end of its line, or else the comment lines
@@ -30,6 +30,24 @@ pub(super) fn whole_description(source: &Source, name: Span) -> Option<String> {
         None => comment_above(source.slice(Span::new(part.start, name.start))),
     };
     (!text.is_empty()).then_some(text)
+}
+
+/// The comment at the end of a line that begins with the name of an item, if it belongs to this item. It does if it
+/// follows the end of the item, or directly follows its opening brace.
+fn comment_behind(line: &str) -> Option<&str> {
+    let (mut open, mut is_opened) = (0_usize, false);
+    // One lexeme after the other, because the line may be as long as the text.
+    for lexeme in scan_all(line) {
+        match lexeme.text {
+            comment if lexeme.is_comment() => return (open == 0 || is_opened).then_some(comment),
+            word if open == 0 && reserved(word).is_some_and(|word| !word.continues()) => return None,
+            "(" | "{" => open += 1,
+            ")" | "}" => open = open.saturating_sub(1),
+            _ => {}
+        }
+        is_opened = open == 1 && lexeme.text == "{";
+    }
+    None
 }
 
 /// The comment lines above an item. `before` is the text before its name.

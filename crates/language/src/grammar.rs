@@ -1,7 +1,7 @@
 //! The use of the grammar: from text to pairs, and from pest's errors to diagnostics.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::{LazyLock, OnceLock};
 
 use pest::Parser;
@@ -10,19 +10,15 @@ use pest::iterators::Pairs;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::parse_tree::{self, Match};
+use super::scan::{is_word, scan};
 use super::standard::MODULES;
 use super::syntax_error::syntax_error;
+use super::word::{Word, is_before_value, word};
 
 /// The maximum nesting depth of brackets. It bounds the recursion of the parser, and no realistic policy reaches it.
 const NESTING_LIMIT: usize = 64;
 /// The maximum length of a policy's text (bytes), a hundred times that of a long policy.
 pub(super) const LENGTH_LIMIT: usize = 1 << 18;
-
-/// Keywords that are followed by an expression.
-const WORDS_BEFORE_OPERANDS: [&str; 20] = [
-    "and", "or", "not", "if", "then", "else", "when", "after", "for", "in", "record", "steer", "along", "at", "facing",
-    "turning", "expect", "assume", "never", "always",
-];
 
 mod derived {
     // The derive writes undocumented items.
@@ -56,8 +52,13 @@ pub(super) fn matches(source: &Source) -> Result<Cow<'static, [Match]>, Box<Diag
     }
 }
 
+/// The matches of tokens in any text.
+pub(super) fn tokens(text: &str) -> Vec<Match> {
+    derived::FsmParser::parse(Rule::tokens, text).map(parse_tree::flatten).unwrap_or_default()
+}
+
 /// Parses a whole file.
-pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
+fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>> {
     if source.text.len() > LENGTH_LIMIT {
         let label = format!("the text has {} bytes", source.text.len());
         let span = Span::new(LENGTH_LIMIT, LENGTH_LIMIT + 1);
@@ -74,15 +75,29 @@ pub(super) fn parse(source: &Source) -> Result<Pairs<'_, Rule>, Box<Diagnostic>>
     derived::FsmParser::parse(Rule::file, &source.text).map_err(|error| Box::new(syntax_error(source, &error)))
 }
 
-/// The keywords. Each is a rule of the grammar with the name `kw_` and the word.
-static KEYWORDS: LazyLock<HashSet<String>> = LazyLock::new(|| {
-    let rules = Rule::all_rules().iter().map(|rule| format!("{rule:?}"));
-    rules.filter_map(|rule| rule.strip_prefix("kw_").map(str::to_owned)).collect()
+/// The words of the grammar by their rules, and true for keywords. The rule of a keyword has the name `kw_` and the word,
+/// that of a word that is a name anywhere else `cw_` and the word.
+static WORD_RULES: LazyLock<HashMap<Rule, (&'static Word, bool)>> = LazyLock::new(|| {
+    let words = Rule::all_rules().iter().filter_map(|&rule| {
+        let name = format!("{rule:?}");
+        let (prefix, text) = name.split_at_checked(3).filter(|(prefix, _)| ["kw_", "cw_"].contains(prefix))?;
+        Some((rule, (word(text)?, prefix == "kw_")))
+    });
+    words.collect()
 });
+
+/// The keywords. They cannot be names.
+static KEYWORDS: LazyLock<HashSet<&str>> =
+    LazyLock::new(|| WORD_RULES.values().filter(|(_, is_keyword)| *is_keyword).map(|(word, _)| word.text).collect());
 
 /// True if a text is a keyword, so that it cannot be a name.
 pub(super) fn is_keyword(text: &str) -> bool {
     KEYWORDS.contains(text)
+}
+
+/// The word of a rule that matches one word of the language.
+pub(super) fn word_of(rule: Rule) -> Option<&'static Word> {
+    WORD_RULES.get(&rule).map(|&(word, _)| word)
 }
 
 /// The first bracket or bar that exceeds the nesting limit.
@@ -99,79 +114,63 @@ fn too_deep(text: &str) -> Option<Span> {
 /// Span of the first bracket that exceeds the nesting limit.
 pub(super) fn brackets(text: &str) -> Result<Vec<usize>, Span> {
     let mut opened = Vec::new();
-    // The last token, except bars.
+    // The last lexeme, except bars and strings.
     let mut before = "";
-    let mut at = 0;
-    while let Some(&byte) = text.as_bytes().get(at) {
-        let rest = &text[at..];
-        let mut length = 1;
-        match byte {
-            b' ' | b'\t' | b'\r' | b'\n' => length = rest.len() - rest.trim_ascii_start().len(),
-            b'#' => length = rest.find('\n').unwrap_or(rest.len()),
-            b'"' => length = rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
-            b'(' | b'{' | b'[' => {
-                opened.push(at);
-                before = &rest[..1];
-            }
-            b')' | b'}' | b']' => {
-                opened.pop();
-                before = &rest[..1];
-            }
-            b'|' if ends_operand(before) => {
+    for lexeme in scan(text) {
+        match lexeme.text {
+            "|" if ends_operand(before) => {
                 opened.pop();
             }
-            b'|' => opened.push(at),
-            _ => {
-                let word = word_length(rest);
-                let sign = || rest.chars().next().map_or(1, char::len_utf8);
-                length = if word > 0 { word } else { sign() };
-                let is_blank = word == 0 && rest.starts_with(char::is_whitespace);
-                before = if is_blank { before } else { &rest[..length] };
+            "(" | "{" | "[" | "|" => opened.push(lexeme.start),
+            ")" | "}" | "]" => {
+                opened.pop();
             }
+            _ => {}
         }
         if opened.len() > NESTING_LIMIT {
-            return Err(Span::new(at, at + 1));
+            return Err(Span::new(lexeme.start, lexeme.start + 1));
         }
-        at += length;
+        if lexeme.text != "|" && !lexeme.text.starts_with('"') {
+            before = lexeme.text;
+        }
     }
     Ok(opened)
 }
 
 /// True if an operand can end with a token, so that a following bar closes.
 fn ends_operand(before: &str) -> bool {
-    [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !WORDS_BEFORE_OPERANDS.contains(&before)
+    [")", "}", "]"].contains(&before) || before.starts_with(is_word) && !is_before_value(before)
 }
 
 /// True if an expression follows a token, so that a following `if` begins a conditional expression and no statement.
 pub(super) fn is_before_expression(token: &str) -> bool {
-    ["=", "(", ","].contains(&token) || token != "else" && WORDS_BEFORE_OPERANDS.contains(&token)
-}
-
-/// Length of the word at the beginning of a text (bytes).
-fn word_length(text: &str) -> usize {
-    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
-    match text.bytes().enumerate().find(|&(_, byte)| !is_plain(byte)) {
-        Some((_, byte)) if !byte.is_ascii() => text.find(|letter| !is_word(letter)).unwrap_or(text.len()),
-        end => end.map_or(text.len(), |(at, _)| at),
-    }
-}
-
-pub(super) fn is_word(letter: char) -> bool {
-    letter.is_alphanumeric() || letter == '_'
+    ["=", "(", ","].contains(&token) || token != "else" && is_before_value(token)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::word::WORDS;
+
+    #[test]
+    fn every_word_of_the_grammar_is_in_the_table() {
+        let rules = Rule::all_rules().iter().filter(|rule| {
+            let rule = format!("{rule:?}");
+            rule.starts_with("kw_") || rule.starts_with("cw_")
+        });
+        for &rule in rules.clone() {
+            assert!(word_of(rule).is_some_and(|word| format!("{rule:?}").ends_with(word.text)), "{rule:?}");
+        }
+        assert!(rules.count() >= 60);
+    }
 
     #[test]
     fn a_word_of_the_language_is_no_name_and_a_longer_word_is() {
         let is_name =
             |text: &str| derived::FsmParser::parse(Rule::name, text).is_ok_and(|pairs| pairs.as_str() == text);
-        assert!(KEYWORDS.len() >= 30);
-        for keyword in KEYWORDS.iter() {
-            assert!(!is_name(keyword), "{keyword}");
-            assert!(is_name(&format!("{keyword}s")), "{keyword}");
+        for word in WORDS.iter().filter(|word| word.text != "->") {
+            assert_eq!(is_name(word.text), !is_keyword(word.text), "{}", word.text);
+            assert!(is_name(&format!("{}s", word.text)), "{}", word.text);
         }
     }
 }

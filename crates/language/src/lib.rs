@@ -1,7 +1,9 @@
 //! The compiler of the policy language: from text to a [`Program`].
 //!
-//! - `grammar` parses a text with pest (`grammar/fsm.pest`). `parse_tree` stores the result in a flat list.
-//! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors.
+//! - `grammar` parses a text with pest (`grammar/fsm.pest`). `word` has the words of the language, from which all lists of
+//!   words follow.
+//! - `parse_tree` stores the result in a flat list with all tokens. `token` reads them with comments, blanks and line ends.
+//! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors. `scan` finds the places for that.
 //! - `expand` copies behaviours into the states that use them.
 //! - `lower` checks names, types and units, and generates code.
 //! - `analysis` finds probable mistakes in the tree and the code.
@@ -34,20 +36,26 @@ mod parse;
 mod parse_tree;
 mod path;
 mod recover;
+mod scan;
 #[cfg(feature = "server")]
 pub mod server;
 mod standard;
 mod suggestion;
 mod syntax_error;
 mod test;
+mod token;
 mod types;
 mod unit;
+mod word;
+#[cfg(test)]
+mod word_reference;
 
 pub use analysis::ProvedContract;
 pub use defaults::with_defaults;
 pub use format::format;
 pub use load::Library;
 pub use test::{Expectation, ParameterRange, PlotFigure, PolicyTest, RunFigure, TestScenes};
+pub use word::scopes;
 
 use load::{Files, Loaded};
 use vibrissa_runtime::machine::{Artifact, Program};

@@ -142,7 +142,7 @@ fn import(reader: &mut Reader<'_>) -> Parsed<Use> {
 /// Refuses any word other than `fitted` after the `if` of whiskers.
 fn fitted(optional: Pair<'_>) -> Parsed<()> {
     let word = Reader::new(optional).next()?;
-    if word.as_rule() == Rule::fitted {
+    if word.as_rule() == Rule::cw_fitted {
         return Ok(());
     }
     let message = format!("`{}` is unexpected here", word.as_str());

@@ -1,10 +1,12 @@
-//! Pairs of the grammar in a flat list. Pest's own pairs count references and include trailing blanks.
+//! The tree of a text: the matched rules of the grammar in a flat list, with all tokens.
+//!
+//! Pest's own pairs count references and include trailing blanks.
 
 use pest::Token;
 
 use vibrissa_text::diagnostic::Span;
 
-use super::grammar::Rule;
+use super::grammar::{Rule, word_of};
 
 /// A matched rule. In a list, its inner matches follow it directly.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +18,7 @@ pub(super) struct Match {
     inner: usize,
 }
 
-/// All matches except those of keywords and marks without content.
+/// All matches in the order of the text.
 ///
 /// Pest includes blanks and comments after the last part. Here the span ends with the last part, or with the closing
 /// quote of a string.
@@ -39,16 +41,41 @@ pub(super) fn flatten(pairs: pest::iterators::Pairs<'_, Rule>) -> Vec<Match> {
                 }
                 has_parts = true;
                 let Some(index) = begun.pop() else { continue };
-                if is_marker(rule) {
-                    all.truncate(index);
-                } else {
-                    let inner = all.len() - index - 1;
-                    all[index] = Match { rule, span: Span::new(all[index].span.start, end), inner };
-                }
+                let inner = all.len() - index - 1;
+                all[index] = Match { rule, span: Span::new(all[index].span.start, end), inner };
             }
         }
     }
     all
+}
+
+/// The matches without inner ones, in the order of the text. A string is whole.
+pub(super) fn leaves(all: &[Match]) -> impl Iterator<Item = (Rule, Span)> {
+    let is_leaf = |found: &&Match| found.rule == Rule::text || found.inner == 0 && found.rule != Rule::text_inner;
+    all.iter().filter(is_leaf).map(|found| (found.rule, found.span))
+}
+
+/// The first bytes of all items of a file and of all elements in its braces, in ascending order.
+///
+/// Every element that the grammar has between an opening and a closing brace counts. Therefore this code names no
+/// construct.
+pub(super) fn starts(all: &[Match]) -> Vec<usize> {
+    let mut starts = Vec::new();
+    for (index, found) in all.iter().enumerate() {
+        let mut inside = found.rule == Rule::file;
+        let mut at = index + 1;
+        while let Some(part) = all.get(at).filter(|_| at <= index + found.inner) {
+            match part.rule {
+                Rule::open_brace => inside = true,
+                Rule::close_brace => inside = false,
+                _ if inside => starts.push(part.span.start),
+                _ => {}
+            }
+            at += part.inner + 1;
+        }
+    }
+    starts.sort_unstable();
+    starts
 }
 
 /// A matched rule in its text.
@@ -81,10 +108,10 @@ impl<'i> Pair<'i> {
     }
 }
 
-/// Matches at one level, in the order of the text.
+/// Matches at one level, in the order of the text, without the words and marks that the syntax tree does not need.
 #[derive(Debug, Clone)]
 pub(super) struct Pairs<'i> {
-    /// The remaining matches with their inner ones.
+    /// The remaining matches with their inner ones. The first is needed.
     rest: &'i [Match],
     text: &'i str,
     start: usize,
@@ -93,7 +120,7 @@ pub(super) struct Pairs<'i> {
 impl<'i> Pairs<'i> {
     /// All matches in a text that begins at the byte `start` of the source.
     pub(super) fn new(all: &'i [Match], text: &'i str, start: usize) -> Self {
-        Self { rest: all, text, start }
+        Self { rest: needed(all), text, start }
     }
 
     /// The rule of the next match.
@@ -108,70 +135,38 @@ impl<'i> Iterator for Pairs<'i> {
     fn next(&mut self) -> Option<Pair<'i>> {
         let (found, behind) = self.rest.split_first()?;
         let (inner, rest) = behind.split_at_checked(found.inner)?;
-        self.rest = rest;
+        self.rest = needed(rest);
         Some(Pair { found, inner, text: self.text, start: self.start })
     }
 }
 
-/// True if a rule is a keyword or a mark without content.
+/// The matches from the first on that the syntax tree needs. A match that it does not need has no inner ones.
+fn needed(mut rest: &[Match]) -> &[Match] {
+    while let Some((first, behind)) = rest.split_first()
+        && is_marker(first.rule)
+    {
+        rest = behind;
+    }
+    rest
+}
+
+/// True if a rule is a word or a mark that the syntax tree does not need.
 fn is_marker(rule: Rule) -> bool {
-    matches!(
+    let is_read = matches!(
         rule,
-        Rule::kw_machine
-            | Rule::kw_library
-            | Rule::tests_word
-            | Rule::kw_use
-            | Rule::kw_by
-            | Rule::kw_needs
-            | Rule::kw_param
-            | Rule::kw_initial
-            | Rule::kw_type
-            | Rule::kw_let
-            | Rule::kw_law
-            | Rule::kw_state
-            | Rule::kw_always
-            | Rule::kw_assume
-            | Rule::kw_never
-            | Rule::within
-            | Rule::kw_failsafe
-            | Rule::kw_when
-            | Rule::kw_after
-            | Rule::kw_for
-            | Rule::kw_in
-            | Rule::kw_of
-            | Rule::kw_if
-            | Rule::kw_then
-            | Rule::kw_else
-            | Rule::kw_do
-            | Rule::kw_record
-            | Rule::kw_mark
-            | Rule::kw_steer
-            | Rule::kw_along
-            | Rule::kw_at
-            | Rule::kw_facing
-            | Rule::kw_turning
-            | Rule::kw_hold
-            | Rule::kw_stop
-            | Rule::kw_var
-            | Rule::kw_set
-            | Rule::kw_behaviour
-            | Rule::kw_monitor
-            | Rule::kw_is
-            | Rule::on_word
-            | Rule::tell_word
-            | Rule::plot_word
-            | Rule::log_word
-            | Rule::list_word
-            | Rule::kw_entry
-            | Rule::kw_exit
-            | Rule::kw_test
-            | Rule::kw_property
-            | Rule::spanning
-            | Rule::contour_word
-            | Rule::points
-            | Rule::apart
-            | Rule::kw_expect
-            | Rule::open
+        Rule::kw_whisker
+            | Rule::kw_resume
+            | Rule::kw_body
+            | Rule::kw_true
+            | Rule::kw_false
+            | Rule::kw_and
+            | Rule::kw_or
+            | Rule::kw_not
+            | Rule::cw_fitted
+    );
+    let is_mark = matches!(
+        rule,
+        Rule::open
             | Rule::close
             | Rule::open_brace
             | Rule::close_brace
@@ -183,5 +178,6 @@ fn is_marker(rule: Rule) -> bool {
             | Rule::equals
             | Rule::arrow
             | Rule::EOI
-    )
+    );
+    is_mark || word_of(rule).is_some() && !is_read
 }

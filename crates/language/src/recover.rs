@@ -10,46 +10,13 @@ use std::collections::HashSet;
 use vibrissa_text::diagnostic::{Diagnostic, FAULT_LIMIT, Source, Span};
 
 use super::ast::File;
-use super::grammar::{brackets, is_before_expression, is_word};
+use super::grammar::{brackets, is_before_expression, is_keyword};
 use super::parse::parse;
+use super::scan::{Lexeme, are_braces_balanced, is_word, scan};
+use super::word::{Word, reserved, word};
 
 /// The maximum number of parses of a text.
 const ATTEMPTS: usize = 20;
-
-/// Keywords that begin an item.
-const ITEM_WORDS: [&str; 19] = [
-    "type",
-    "whisker",
-    "needs",
-    "param",
-    "initial",
-    "let",
-    "law",
-    "state",
-    "behaviour",
-    "monitor",
-    "always",
-    "assume",
-    "never",
-    "failsafe",
-    "use",
-    "test",
-    "property",
-    "machine",
-    "library",
-];
-/// Keywords among them that also occur within braces.
-const INNER_WORDS: [&str; 7] = ["initial", "let", "state", "always", "assume", "never", "failsafe"];
-/// A word that begins an item and is a name anywhere else.
-const CONTEXTUAL_WORD: &str = "contour";
-/// Keywords that begin a statement or a memory declaration, in a state or outside.
-const STATEMENT_WORDS: [&str; 9] = ["var", "set", "if", "do", "record", "mark", "steer", "hold", "stop"];
-/// Keywords that can begin a continuation line of an item.
-const CONTINUING_WORDS: [&str; 7] = ["and", "or", "not", "in", "for", "when", "else"];
-/// Keywords that begin other parts of a state.
-const PART_WORDS: [&str; 9] = ["let", "when", "after", "entry", "exit", "assume", "never", "always", "failsafe"];
-/// Words that begin another part of a state at the beginning of a line, and are names anywhere else.
-const CONTEXTUAL_PART_WORDS: [&str; 4] = ["on", "tell", "plot", "log"];
 
 /// The omitted parts of a policy's texts, with the reasons.
 #[derive(Debug, Default)]
@@ -94,7 +61,7 @@ pub(super) fn parse_all(source: &Source, start: usize, recovery: &mut Recovery) 
                 let is_new = |region: &Span| !rest.slice(*region).trim().is_empty();
                 let index = candidates.iter().position(is_new)?;
                 let region = candidates.remove(index);
-                recovery.lost_use |= Tokens::new(rest.slice(region)).any(|token| token.of(rest.slice(region)) == "use");
+                recovery.lost_use |= scan(rest.slice(region)).any(|lexeme| lexeme.text == "use");
                 recovery.lost.extend(names(rest.slice(region)));
                 rest = Cow::Owned(Source::new(rest.name.clone(), blanked(&rest.text, region)));
             }
@@ -156,8 +123,8 @@ impl Recovery {
 /// and all words after a comma.
 fn names(text: &str) -> impl Iterator<Item = String> {
     let mut may_be_name = false;
-    Tokens::new(text).filter_map(move |token| {
-        let word = token.of(text);
+    scan(text).filter_map(move |lexeme| {
+        let word = lexeme.text;
         let is_word = word.starts_with(is_word);
         let is_name = is_word && may_be_name;
         may_be_name = is_word || word == ",";
@@ -183,28 +150,32 @@ fn regions(text: &str, at: usize) -> Vec<Span> {
         && let Some(&brace) = opened.iter().rev().find(|&&bracket| text[bracket..].starts_with('{'))
     {
         let (starts, end) = statements(text, brace + 1);
-        let is_whole = |region: &Span| braces_close(&text[region.start..region.end]);
-        regions.extend(around(text, at, (&starts, &PART_WORDS), (brace + 1, end)).into_iter().filter(is_whole));
+        let is_whole = |region: &Span| are_braces_balanced(&text[region.start..region.end]);
+        regions.extend(around(text, at, (&starts, Word::begins_part), (brace + 1, end)).into_iter().filter(is_whole));
     }
     // A file cannot be parsed without the machine's name.
-    let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2);
-    if let Some(first) = tokens.next() {
-        regions.extend(around(text, at, (&starts, &ITEM_WORDS), (first.start, text.len())));
+    if let Some(first) = scan(text).skip_while(|lexeme| !lexeme.is_heading()).nth(2) {
+        regions.extend(around(text, at, (&starts, Word::begins_item), (first.start, text.len())));
     }
     regions
 }
 
-/// The spans around `at` that may contain the error, among parts that begin at `starts`. Each part begins with one of
-/// `words` or with a statement keyword.
-fn around(text: &str, at: usize, (starts, words): (&[usize], &[&str]), (low, high): (usize, usize)) -> Vec<Span> {
+/// The spans around `at` that may contain the error, among parts that begin at `starts`. Each part begins with a word
+/// for which `begins` is true, or with a statement.
+fn around(
+    text: &str,
+    at: usize,
+    (starts, begins): (&[usize], fn(&Word) -> bool),
+    (low, high): (usize, usize),
+) -> Vec<Span> {
     if at < low || at > high {
         return Vec::new();
     }
     let before = starts.iter().copied().take_while(|&start| start < at).last().unwrap_or(low);
     let behind = starts.iter().copied().find(|&start| start > at).unwrap_or(high);
-    let word: &str = text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default();
+    let word = word(text[at..].split(|letter| !is_word(letter)).next().unwrap_or_default());
     let is_start = starts.contains(&at);
-    if is_start && (words.contains(&word) || STATEMENT_WORDS.contains(&word) || word == CONTEXTUAL_WORD) {
+    if is_start && word.is_some_and(|word| begins(word) || word.begins_statement()) {
         // Either the previous part lacks its end, or this part is misplaced.
         vec![Span::new(before, at), Span::new(at, behind)]
     } else if is_start || indent(text, at).is_some_and(|own| Some(own) <= indent(text, before)) {
@@ -227,13 +198,13 @@ fn indent(text: &str, at: usize) -> Option<usize> {
 /// the previous item. In a text with unclosed braces, an item keyword counts at the beginning of a line. It must occur
 /// only in items, or have at most the indentation of the previous item.
 fn items(text: &str) -> (bool, Vec<usize>) {
-    let is_balanced = braces_close(text);
+    let is_balanced = are_braces_balanced(text);
     let (mut braces, mut parentheses, mut indent) = (0_usize, 0_usize, 0);
     let mut starts = Vec::new();
-    let mut tokens = Tokens::new(text).skip_while(|token| !token.is_heading(text)).skip(2).peekable();
+    let mut lexemes = scan(text).skip_while(|lexeme| !lexeme.is_heading()).skip(2).peekable();
     let mut before = "";
-    while let Some(token) = tokens.next() {
-        let word = token.of(text);
+    while let Some(lexeme) = lexemes.next() {
+        let word = lexeme.text;
         let is_value = word == "if" && is_before_expression(before);
         before = word;
         match word {
@@ -243,26 +214,30 @@ fn items(text: &str) -> (bool, Vec<usize>) {
             ")" => parentheses = parentheses.saturating_sub(1),
             _ if !word.starts_with(is_word) => {}
             _ => {
-                let is_item = ITEM_WORDS.contains(&word);
-                let is_first = token.indent.is_some();
-                let is_outermost = token.indent.is_some_and(|own| own <= indent);
+                let known = reserved(word);
+                let is_item = known.is_some_and(Word::begins_item);
+                let is_first = lexeme.indent.is_some();
+                let is_outermost = lexeme.indent.is_some_and(|own| own <= indent);
                 // With more indentation, or after another word, it belongs to a state, or to a `whisker` or an `else`
                 // before its `if`.
                 let begins = if is_value {
                     false
-                } else if STATEMENT_WORDS.contains(&word) {
+                } else if known.is_some_and(Word::begins_statement) {
                     is_outermost && (braces == 0 || !is_balanced)
-                } else if braces > 0 {
-                    is_item && !is_balanced && if INNER_WORDS.contains(&word) { is_outermost } else { is_first }
                 } else if is_item {
-                    parentheses == 0 || is_first
+                    let is_inner = known.is_some_and(Word::begins_part);
+                    let is_placed =
+                        if is_inner && is_first { is_outermost } else { is_first || braces + parentheses == 0 };
+                    is_placed && (braces == 0 || is_first && !is_balanced)
+                } else if braces > 0 {
+                    false
                 } else {
-                    let names = |next: &Token| next.indent.is_none() && text[next.start..].starts_with(is_word);
-                    is_outermost && !CONTINUING_WORDS.contains(&word) && tokens.peek().is_some_and(names)
+                    let names = |next: &Lexeme<'_>| next.indent.is_none() && next.text.starts_with(is_word);
+                    is_outermost && !known.is_some_and(Word::continues) && lexemes.peek().is_some_and(names)
                 };
                 if begins {
-                    starts.push(token.start);
-                    (braces, parentheses, indent) = (0, 0, token.indent.unwrap_or(indent));
+                    starts.push(lexeme.start);
+                    (braces, parentheses, indent) = (0, 0, lexeme.indent.unwrap_or(indent));
                 }
             }
         }
@@ -277,14 +252,14 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
     let mut before = "";
     // True if the last token is the end of an arrow.
     let mut is_target = false;
-    for token in Tokens::new(&text[start..]) {
-        let is_begin = !std::mem::replace(&mut is_target, text[start + token.start..].starts_with('>'));
-        let word = &text[start + token.start..start + token.end];
+    for lexeme in scan(&text[start..]) {
+        let is_begin = !std::mem::replace(&mut is_target, lexeme.text == ">");
+        let word = lexeme.text;
         let is_value = word == "if" && is_before_expression(before);
         before = word;
         match word {
             "{" => braces += 1,
-            "}" if braces == 0 => return (starts, start + token.start),
+            "}" if braces == 0 => return (starts, start + lexeme.start),
             "}" => braces -= 1,
             "(" => parentheses += 1,
             ")" => parentheses = parentheses.saturating_sub(1),
@@ -292,92 +267,15 @@ fn statements(text: &str, start: usize) -> (Vec<usize>, usize) {
             word if braces == 0
                 && !is_value
                 && is_begin
-                && (STATEMENT_WORDS.contains(&word)
-                    || PART_WORDS.contains(&word)
-                    || CONTEXTUAL_PART_WORDS.contains(&word) && token.indent.is_some())
-                && (parentheses == 0 || token.indent.is_some()) =>
+                && self::word(word).is_some_and(|word| word.begins_part() || word.begins_statement())
+                && (lexeme.indent.is_some() || is_keyword(word))
+                && (parentheses == 0 || lexeme.indent.is_some()) =>
             {
-                starts.push(start + token.start);
+                starts.push(start + lexeme.start);
                 parentheses = 0;
             }
             _ => {}
         }
     }
     (starts, text.len())
-}
-
-/// True if the braces of a text are balanced.
-fn braces_close(text: &str) -> bool {
-    let mut depth = 0_usize;
-    for token in Tokens::new(text) {
-        match token.of(text) {
-            "{" => depth += 1,
-            "}" if depth == 0 => return false,
-            "}" => depth -= 1,
-            _ => {}
-        }
-    }
-    depth == 0
-}
-
-/// A word, a string, or a mark.
-struct Token {
-    start: usize,
-    end: usize,
-    /// Indentation, if the token is the first of its line.
-    indent: Option<usize>,
-}
-
-impl Token {
-    fn of<'t>(&self, text: &'t str) -> &'t str {
-        &text[self.start..self.end]
-    }
-
-    /// True if it is the keyword at the beginning of a file.
-    fn is_heading(&self, text: &str) -> bool {
-        ["machine", "library", "tests"].contains(&self.of(text))
-    }
-}
-
-/// The tokens of a text, without comments.
-struct Tokens<'t> {
-    text: &'t str,
-    at: usize,
-    /// Start of the line, while only blanks have occurred in it.
-    line: Option<usize>,
-}
-
-impl<'t> Tokens<'t> {
-    fn new(text: &'t str) -> Self {
-        Self { text, at: 0, line: Some(0) }
-    }
-}
-
-impl Iterator for Tokens<'_> {
-    type Item = Token;
-
-    fn next(&mut self) -> Option<Token> {
-        loop {
-            let rest = &self.text[self.at..];
-            let letter = rest.chars().next()?;
-            let start = self.at;
-            match letter {
-                '\n' => {
-                    self.at += 1;
-                    self.line = Some(self.at);
-                }
-                '#' => self.at += rest.find('\n').unwrap_or(rest.len()),
-                _ if letter.is_whitespace() => self.at += letter.len_utf8(),
-                _ => {
-                    self.at += match letter {
-                        '"' => rest[1..].find(['"', '\n']).map_or(rest.len(), |end| end + 2),
-                        _ if is_word(letter) => rest.find(|letter| !is_word(letter)).unwrap_or(rest.len()),
-                        _ => letter.len_utf8(),
-                    };
-                    let indent = self.line.take().map(|line| start - line);
-                    return Some(Token { start, end: self.at, indent });
-                }
-            }
-        }
-    }
 }

@@ -5,32 +5,13 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::foreign_syntax::advice_for;
-use super::grammar::{Rule, brackets, is_keyword, is_word};
+use super::grammar::{Rule, brackets, is_keyword, word_of};
+use super::scan::is_word;
 use super::suggestion::did_you_mean;
-
-/// The constructs that begin an item, in their usual order.
-const ITEM: &str = "an item (`use`, `whisker`, `contour`, `needs`, `type`, `param`, `initial`, `var`, `let`, `law`, `state`, `behaviour`, `monitor`, `always`, `assume`, `never`, `failsafe`, `test`, `property`)";
+use super::word::{Position, Word, reserved, word, words_at};
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
-
-/// Keywords that occur only outside of all braces.
-const ITEM_WORDS: [&str; 14] = [
-    "machine",
-    "library",
-    "use",
-    "whisker",
-    "needs",
-    "type",
-    "param",
-    "initial",
-    "law",
-    "state",
-    "behaviour",
-    "monitor",
-    "test",
-    "property",
-];
 
 /// The diagnostic for an error of pest.
 pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
@@ -80,7 +61,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     let mut diagnostic =
         Diagnostic::error("P0101", format!("`{found}` is unexpected here"), span, expected(rules).unwrap_or_default());
     if let Some(opened) = opened
-        && (ITEM_WORDS.contains(&found) || !belongs(&source.text[opened..=opened], found))
+        && (reserved(found).is_some_and(begins_item) || !belongs(&source.text[opened..=opened], found))
     {
         diagnostic = diagnostic.note(Span::new(opened, opened + 1), "still open");
     }
@@ -91,7 +72,7 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
         return diagnostic.hint(advice);
     }
     let others: &[&str] = if rules.contains(&Rule::file) { &["library", "tests"] } else { &[] };
-    did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| word(rule)).chain(others.iter().copied()))
+    did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| first_word(rule)).chain(others.iter().copied()))
 }
 
 /// The diagnostic for a text that ends too early.
@@ -230,7 +211,7 @@ fn advice(found: &str, (before, rest): (&str, &str), rules: &[Rule]) -> Option<S
         _ if rules.contains(&Rule::kw_do) && found.starts_with(is_word) && !is_keyword(found) => {
             statement(found, rest[found.len()..].trim_start())?
         }
-        _ if is_block_due && !is_value_due(rules) && begins_statement(found) => BLOCK.to_owned(),
+        _ if is_block_due && !is_value_due(rules) && word(found).is_some_and(|word| word.is_at(Position::Statement)) => BLOCK.to_owned(),
         "if" if is_value_due(rules) => "write it in parentheses: `(if condition then value else value)`".to_owned(),
         _ if is_keyword(found) && is_value_due(rules) => {
             format!("`{found}` is a keyword and cannot be a value")
@@ -255,9 +236,16 @@ fn statement(name: &str, behind: &str) -> Option<String> {
     }
 }
 
-/// True if a word begins a statement.
-fn begins_statement(word: &str) -> bool {
-    ["do", "hold", "if", "let", "log", "mark", "plot", "record", "set", "steer", "stop", "tell"].contains(&word)
+/// True if an item begins with a word, and no statement.
+fn begins_item(word: &Word) -> bool {
+    word.begins_item() && !word.is_at(Position::Statement)
+}
+
+/// The constructs that begin an item, in their usual order.
+fn items() -> String {
+    let words = words_at(Position::Item).filter(|word| word.begins_item());
+    let words: Vec<String> = words.map(|word| format!("`{}`", word.text)).collect();
+    format!("an item ({})", words.join(", "))
 }
 
 /// True if a text ends with a number and a tab.
@@ -273,12 +261,13 @@ fn is_value_due(rules: &[Rule]) -> bool {
 
 /// The expected constructs, the most informative first.
 fn expected(rules: &[Rule]) -> Option<String> {
-    let mut known: Vec<(u8, &str)> = rules.iter().filter_map(|&rule| phrase(rule, rules)).collect();
+    let mut known: Vec<(u8, String)> = rules.iter().filter_map(|&rule| phrase(rule, rules)).collect();
     known.sort_unstable();
     known.dedup();
     // Almost every position within an expression allows operators. They are listed only if nothing else can follow.
     let most = known.first()?.0.max(CONTINUES - 1);
-    let phrases: Vec<&str> = known.iter().filter(|(rank, _)| *rank <= most).map(|&(_, phrase)| phrase).collect();
+    let phrases: Vec<&str> =
+        known.iter().filter(|(rank, _)| *rank <= most).map(|(_, phrase)| phrase.as_str()).collect();
     Some(match phrases.as_slice() {
         [first @ .., last] if !first.is_empty() => format!("expected {} or {last}", first.join(", ")),
         _ => format!("expected {}", phrases.concat()),
@@ -289,8 +278,8 @@ fn expected(rules: &[Rule]) -> Option<String> {
 const CONTINUES: u8 = 5;
 
 /// The name of a rule in messages, with its rank.
-fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
-    Some(match rule {
+fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, String)> {
+    let (rank, text) = match rule {
         Rule::arrow => (0, "`->`"),
         Rule::equals => (0, "`=`"),
         Rule::colon => (0, "`:` and a type"),
@@ -301,22 +290,13 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::comma => (1, "`,`"),
         Rule::arguments | Rule::values | Rule::ranges | Rule::received => (1, "`(`"),
         Rule::open if !among.contains(&Rule::dot) && !is_value_due(among) => (1, "`(`"),
-        Rule::kw_along => (0, "`along`"),
-        Rule::kw_at => (0, "`at`"),
-        Rule::kw_facing => (0, "`facing`"),
-        Rule::kw_turning => (0, "`turning`"),
-        Rule::within => (0, "`within`"),
+        Rule::kw_by => (1, "`by`"),
         Rule::kw_for => (1, "`for`"),
         Rule::kw_in => (1, "`in`"),
         Rule::kw_or if among.len() == 1 => (1, "`or`"),
         Rule::dot if among.len() == 1 => (1, "`.`"),
         Rule::kw_of | Rule::keypoints => (1, "`of`"),
-        Rule::kw_then => (0, "`then`"),
         Rule::kw_else => (4, "`else`"),
-        Rule::fitted => (0, "`fitted`"),
-        Rule::points => (0, "`points`"),
-        Rule::apart => (0, "`apart`"),
-        Rule::spanning => (0, "`over`"),
         Rule::family => (0, "a family of scenes such as `convex-corner`"),
         Rule::name | Rule::argument | Rule::range => (0, "a name"),
         Rule::target => (0, "the name of a state"),
@@ -330,7 +310,7 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::quantity | Rule::number if !is_value_due(among) => (0, "a number"),
         Rule::file | Rule::machine | Rule::kw_machine => (0, "`machine` and its name"),
         // `param` represents all words that begin an item, and `do` all words that begin a statement.
-        Rule::kw_param => (2, ITEM),
+        Rule::kw_param => return Some((2, items())),
         Rule::kw_do if among.contains(&Rule::kw_param) => (3, "a statement"),
         Rule::kw_state if among.contains(&Rule::kw_do) && !among.contains(&Rule::kw_param) => (3, "`state`"),
         Rule::kw_do => (2, "a statement"),
@@ -342,69 +322,20 @@ fn phrase(rule: Rule, among: &[Rule]) -> Option<(u8, &'static str)> {
         Rule::access | Rule::branch | Rule::expression | Rule::mover => (0, "a value"),
         Rule::sign | Rule::times => (CONTINUES, "an operator"),
         Rule::unit => (CONTINUES, "a unit"),
-        _ => return None,
-    })
+        _ => {
+            let is_joint = |word: &&Word| word.is_only_at(Position::Inside) || word.is_only_at(Position::Property);
+            let word = word_of(rule).filter(is_joint).filter(|word| !word.is_operator())?;
+            return Some((0, format!("`{}`", word.text)));
+        }
+    };
+    Some((rank, text.to_owned()))
 }
 
-/// The keyword of a rule.
-fn word(rule: Rule) -> Option<&'static str> {
-    Some(match rule {
-        Rule::file | Rule::machine | Rule::kw_machine => "machine",
-        Rule::library | Rule::kw_library => "library",
-        Rule::kw_use => "use",
-        Rule::kw_whisker => "whisker",
-        Rule::fitted => "fitted",
-        Rule::contour_word => "contour",
-        Rule::points => "points",
-        Rule::apart => "apart",
-        Rule::kw_needs => "needs",
-        Rule::kw_type => "type",
-        Rule::kw_param => "param",
-        Rule::kw_var => "var",
-        Rule::kw_initial => "initial",
-        Rule::kw_let => "let",
-        Rule::kw_law => "law",
-        Rule::kw_state => "state",
-        Rule::kw_behaviour => "behaviour",
-        Rule::kw_monitor => "monitor",
-        Rule::kw_is => "is",
-        Rule::on_word => "on",
-        Rule::tell_word => "tell",
-        Rule::plot_word => "plot",
-        Rule::log_word => "log",
-        Rule::list_word => "list",
-        Rule::kw_always => "always",
-        Rule::kw_test => "test",
-        Rule::kw_property => "property",
-        Rule::spanning => "over",
-        Rule::kw_expect => "expect",
-        Rule::kw_assume => "assume",
-        Rule::kw_never => "never",
-        Rule::within => "within",
-        Rule::kw_failsafe => "failsafe",
-        Rule::kw_when => "when",
-        Rule::kw_after => "after",
-        Rule::kw_if => "if",
-        Rule::kw_then => "then",
-        Rule::kw_else => "else",
-        Rule::kw_set => "set",
-        Rule::kw_do => "do",
-        Rule::kw_record => "record",
-        Rule::kw_mark => "mark",
-        Rule::kw_steer => "steer",
-        Rule::kw_hold => "hold",
-        Rule::kw_stop => "stop",
-        Rule::kw_along => "along",
-        Rule::kw_at => "at",
-        Rule::kw_facing => "facing",
-        Rule::kw_turning => "turning",
-        Rule::kw_for => "for",
-        Rule::kw_in => "in",
-        Rule::kw_of => "of",
-        Rule::kw_resume => "resume",
-        Rule::kw_and => "and",
-        Rule::kw_or => "or",
-        Rule::kw_not => "not",
-        _ => return None,
-    })
+/// The word that begins a rule.
+fn first_word(rule: Rule) -> Option<&'static str> {
+    match rule {
+        Rule::file | Rule::machine => Some("machine"),
+        Rule::library => Some("library"),
+        _ => word_of(rule).map(|word| word.text),
+    }
 }

@@ -159,7 +159,7 @@ fn a_statement_a_transition_and_an_item_begin_with_their_words() {
         assert!(!has(place, no), "{place}: {:?}", labels(&writing(place)));
     }
     assert_eq!(labels("\u{a7}"), ["machine", "library", "tests"]);
-    assert_eq!(labels("library l\n\u{a7}"), ["use", "type", "law", "behaviour", "monitor", "let"]);
+    assert_eq!(labels("library l\n\u{a7}"), ["use", "type", "let", "law", "behaviour", "monitor"]);
 }
 
 #[test]

@@ -8,8 +8,8 @@ use vibrissa_runtime::math;
 
 use super::arithmetic::{binary, greater, lesser, part, unit_in_si};
 use super::interpreter::Interpreter;
-use super::text::plot_name;
-use super::tree::{Arguments, Derived, Expression, LIST_LENGTH, Law, Monitor, Statement, Steer};
+use super::statement::{Statement, Steer, plot_name};
+use super::tree::{Arguments, Derived, Expression, LIST_LENGTH, Law, Monitor};
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Value {

@@ -3,9 +3,8 @@
 use proptest::prelude::*;
 
 use super::grow::Grower;
-use super::tree::{
-    Arguments, Contract, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Statement, Steer, Target, Type,
-};
+use super::statement::{Statement, Steer};
+use super::tree::{Arguments, Contract, Derived, Expression, Guard, Law, Monitor, Program, Rule, State, Target, Type};
 
 /// Programs that are well typed; some go round within a tick, which the compiler refuses.
 pub(crate) fn programs() -> impl Strategy<Value = Program> {

@@ -9,6 +9,7 @@ mod grow;
 mod interpreter;
 mod side_by_side;
 mod signal;
+mod statement;
 mod text;
 mod tree;
 mod work;

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use super::statement::block;
 use super::tree::{
-    Arguments, Contract, Derived, Expression, Guard, LIST_LENGTH, Law, Monitor, Program, Rule, Statement, Steer,
-    Target, Type, default,
+    Arguments, Contract, Derived, Expression, Guard, LIST_LENGTH, Law, Monitor, Program, Rule, Target, Type, default,
 };
 
 impl std::fmt::Debug for Program {
@@ -160,7 +160,7 @@ fn arguments(arguments: &Arguments) -> String {
     if arguments.is_empty() { String::new() } else { format!("({})", typed(arguments).join(", ")) }
 }
 
-fn list(values: &[Expression]) -> String {
+pub(super) fn list(values: &[Expression]) -> String {
     // Those with names come last, in any order.
     let (named, mut in_order): (Vec<_>, Vec<_>) = values
         .iter()
@@ -170,16 +170,12 @@ fn list(values: &[Expression]) -> String {
     in_order.into_iter().map(Expression::text).collect::<Vec<_>>().join(", ")
 }
 
-fn call(name: &str, values: &[Expression]) -> String {
+pub(super) fn call(name: &str, values: &[Expression]) -> String {
     let list = list(values);
     if name == "L" {
         return "L()".to_owned();
     }
     if list.is_empty() { name.to_owned() } else { format!("{name}({list})") }
-}
-
-fn block(statements: &[Statement]) -> String {
-    statements.iter().map(|statement| statement.text() + "\n").collect()
 }
 
 impl Guard {
@@ -203,46 +199,6 @@ impl Target {
             }
         }
     }
-}
-
-impl Statement {
-    fn text(&self) -> String {
-        match self {
-            Self::Let(name, value) => format!("let {name} = {}", value.text()),
-            Self::Set(name, value) => format!("set {name} = {}", value.text()),
-            Self::If(branches, otherwise) => {
-                let branch = |(condition, then): &(Expression, Vec<Statement>)| {
-                    format!("if {} {{\n{}}}", condition.text(), block(then))
-                };
-                let branches: Vec<String> = branches.iter().map(branch).collect();
-                let otherwise =
-                    if otherwise.is_empty() { String::new() } else { format!(" else {{\n{}}}", block(otherwise)) };
-                branches.join(" else ") + &otherwise
-            }
-            Self::Do(law, values, _) => format!("do {law}({})", list(values)),
-            Self::Tell(monitor, values, _) => format!("tell {}", call(&format!("M{monitor}.e"), values)),
-            Self::RecordPosition(position, contour) => format!("record {} in c{contour}", position.text()),
-            Self::Record(whisker) => format!("record {}", whisker.text()),
-            Self::Plot(of, value) => format!("plot {} = {}", plot_name(*of), value.text()),
-            Self::Log(message, values) => {
-                let values: Vec<String> = values.iter().map(|value| format!(", {}", value.text())).collect();
-                format!("log \"m{message}\"{}", values.concat())
-            }
-            Self::Mark(mark, whisker) => format!("mark {mark} {}", whisker.text()),
-            Self::Steer(Steer { whisker, along, speed, facing, turn }) => {
-                let mover = whisker.as_ref().map_or_else(|| "body".to_owned(), Expression::text);
-                let (along, speed, turn) = (along.text(), speed.text(), turn.text());
-                format!("steer {mover} along {along} at {speed} {} {turn}", if *facing { "facing" } else { "turning" })
-            }
-            Self::Hold => "hold".to_owned(),
-            Self::Stop => "stop".to_owned(),
-        }
-    }
-}
-
-/// The name of the plot of values of a type.
-pub(crate) fn plot_name(of: Type) -> String {
-    format!("p{of:?}")
 }
 
 const OR: u8 = 1;

@@ -1,5 +1,7 @@
 //! Programs as trees.
 
+use super::statement::Statement;
+
 /// The types that the programs have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Type {
@@ -73,38 +75,6 @@ pub(crate) enum Expression {
     /// A condition, and the values if it holds and if not.
     If(Box<[Expression; 3]>),
     Binary(&'static str, Box<Expression>, Box<Expression>),
-}
-
-#[derive(Debug, Clone)]
-pub(crate) enum Statement {
-    Let(String, Expression),
-    Set(String, Expression),
-    If(Vec<(Expression, Vec<Statement>)>, Vec<Statement>),
-    /// A law, the values that it is given, and the number of this use.
-    Do(String, Vec<Expression>, usize),
-    /// A monitor, the values that its event is given, and the number of this use.
-    Tell(usize, Vec<Expression>, usize),
-    Record(Expression),
-    /// A position, and the number of the contour that gets it.
-    RecordPosition(Expression, usize),
-    Mark(&'static str, Expression),
-    /// The type of the value, which the plot's name has, and the value.
-    Plot(Type, Expression),
-    /// The number of this message, and its values.
-    Log(usize, Vec<Expression>),
-    Steer(Steer),
-    Hold,
-    Stop,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Steer {
-    pub(crate) whisker: Option<Expression>,
-    pub(crate) along: Expression,
-    pub(crate) speed: Expression,
-    /// Whether `turn` is a heading, not a rate.
-    pub(crate) facing: bool,
-    pub(crate) turn: Expression,
 }
 
 /// Some have a [default](default).

@@ -3,8 +3,7 @@
 use std::collections::HashSet;
 
 use crate::ast::{
-    Argument, Compound, Connection, Contract, Expression, Guard, Kind, Name, State, Statement, Step, Target,
-    Transition, Turn,
+    Argument, Compound, Connection, Contract, Expression, Guard, Kind, Name, State, Statement, Step, Target, Transition,
 };
 
 /// A set of used names.
@@ -103,41 +102,12 @@ impl<'a> Names<'a> {
 
     pub(super) fn statements(&mut self, statements: &'a [Statement]) {
         for statement in statements {
-            match statement {
-                Statement::Let { name, value } => {
-                    self.give([name]);
-                    self.expression(value);
-                }
-                Statement::Set { value, .. } | Statement::Plot { value, .. } => self.expression(value),
-                Statement::Log { values, .. } => self.expressions(values),
-                Statement::If { branches, otherwise } => {
-                    for (condition, block) in branches {
-                        self.expression(condition);
-                        self.statements(block);
-                    }
-                    self.statements(otherwise);
-                }
-                Statement::Do { law, values, .. } => {
-                    self.used.insert(&law.text);
-                    self.expressions(values);
-                }
-                // A contour that is only recorded is not used.
-                Statement::RecordPosition { position, .. } => self.expression(position),
-                Statement::Record(whisker) | Statement::Mark { whisker, .. } => self.expression(whisker),
-                Statement::Tell { monitor, values, .. } => {
-                    self.used.insert(&monitor.text);
-                    self.expressions(values);
-                }
-                Statement::Steer(steer) => {
-                    self.expressions(&steer.whisker);
-                    self.expression(&steer.along);
-                    self.expression(&steer.speed);
-                    match &steer.turn {
-                        Turn::Facing(value) | Turn::Turning(value) => self.expression(value),
-                    }
-                }
-                Statement::Hold(_) | Statement::Stop(_) => {}
+            if let Statement::Let { name, .. } = statement {
+                self.give([name]);
             }
+            self.used.extend(statement.used().map(|name| name.text.as_str()));
+            self.expressions(statement.expressions());
+            statement.blocks().for_each(|block| self.statements(block));
         }
     }
 

@@ -59,6 +59,44 @@ pub(crate) enum Statement {
     Stop(Span),
 }
 
+impl Statement {
+    /// The expressions of the statement, without those of its blocks.
+    pub(crate) fn expressions(&self) -> Vec<&Expression> {
+        match self {
+            Self::Let { value, .. }
+            | Self::Set { value, .. }
+            | Self::Plot { value, .. }
+            | Self::Record(value)
+            | Self::RecordPosition { position: value, .. }
+            | Self::Mark { whisker: value, .. } => vec![value],
+            Self::If { branches, .. } => branches.iter().map(|(condition, _)| condition).collect(),
+            Self::Do { values, .. } | Self::Tell { values, .. } | Self::Log { values, .. } => values.iter().collect(),
+            Self::Steer(steer) => {
+                let (Turn::Facing(turn) | Turn::Turning(turn)) = &steer.turn;
+                steer.whisker.iter().chain([&steer.along, &steer.speed, turn]).collect()
+            }
+            Self::Hold(_) | Self::Stop(_) => Vec::new(),
+        }
+    }
+
+    /// The blocks of the statement.
+    pub(crate) fn blocks(&self) -> impl Iterator<Item = &[Statement]> {
+        let (branches, otherwise) = match self {
+            Self::If { branches, otherwise } => (branches.as_slice(), otherwise.as_slice()),
+            _ => Default::default(),
+        };
+        branches.iter().map(|(_, block)| block.as_slice()).chain([otherwise])
+    }
+
+    /// The law or the monitor that the statement uses. A contour that is only recorded is not used.
+    pub(crate) fn used(&self) -> Option<&Name> {
+        match self {
+            Self::Do { law: used, .. } | Self::Tell { monitor: used, .. } => Some(used),
+            _ => None,
+        }
+    }
+}
+
 /// `steer mover along direction at speed facing angle`
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Steer {

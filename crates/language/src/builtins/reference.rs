@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use crate::ast::{Argument, Behaviour, Content, Name};
 use crate::description::{description, whole_description};
-use crate::index::reference::words;
 use crate::parse::parse;
 use crate::standard::{MODULES, ROOT};
 use crate::types::{DIMENSIONS, Type};
 use crate::unit::units_of;
+use crate::word_reference::words;
 use vibrissa_declare::catalogue::{self, Parameter};
 use vibrissa_runtime::units::Dimension;
 use vibrissa_text::diagnostic::Source;

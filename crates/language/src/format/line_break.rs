@@ -3,7 +3,7 @@
 use super::line::{INDENT, Kind, Line, Piece, WIDTH};
 use super::spacing::{is_apart, may_break};
 use super::structure::{Element, Structure};
-use super::token::Kind as TokenKind;
+use crate::token::Kind as TokenKind;
 
 /// Additional indentation of the second and further lines of a statement.
 const CONTINUATION: usize = 2 * INDENT;

@@ -1,23 +1,21 @@
 //! The formatter. It changes only blanks and line breaks.
 //!
-//! It works on tokens and keeps all of them, including comments, in their order. Only the beginnings of statements come
-//! from the grammar, so a new construct needs no change here. A statement that the author broke stays broken. A block
+//! It keeps all tokens of the tree, including comments, in their order. The beginnings of statements come from the tree,
+//! so a new construct needs no change here. A statement that the author broke stays broken. A block
 //! on one line stays there if it fits. Everything else follows from the tokens alone, so formatting is idempotent.
 
 mod align;
 mod line;
 mod line_break;
 mod spacing;
-mod statement;
 mod structure;
-mod token;
-
-pub(super) use token::{Kind as TokenKind, Token, tokens};
 
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::grammar;
+use super::parse_tree::starts;
 use super::recover::faults;
+use super::token::{Kind, tokens, tokens_of};
 
 /// Formats the text of a policy by the rules of `docs/language-semantics.md`.
 ///
@@ -33,8 +31,8 @@ use super::recover::faults;
 /// # Ok::<(), Vec<vibrissa_text::diagnostic::Diagnostic>>(())
 /// ```
 pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
-    let pairs = grammar::parse(source).map_err(|_| faults(source))?;
-    let structure = structure::structure(token::tokens(&source.text), &statement::starts(pairs));
+    let tree = grammar::matches(source).map_err(|_| faults(source))?;
+    let structure = structure::structure(tokens_of(&source.text, &tree), &starts(&tree));
     let mut lines = line_break::break_lines(&structure);
     line::separate(&mut lines);
     align::align(&mut lines);
@@ -56,8 +54,8 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
 
 /// The part of a statement on one line, without comments. All layouts of a policy give the same text.
 pub(super) fn on_one_line(part: &str) -> String {
-    let mut tokens = token::tokens(part);
-    tokens.retain(|token| token.kind != TokenKind::Comment);
+    let mut tokens = tokens(part);
+    tokens.retain(|token| token.kind != Kind::Comment);
     let structure = structure::structure(tokens, &[]);
     let mut text = String::new();
     let mut before = None;
@@ -71,30 +69,6 @@ pub(super) fn on_one_line(part: &str) -> String {
     text
 }
 
-/// Keywords that can occur in an item outside of all brackets, except the one with which it begins.
-const WITHIN_ITEMS: [&str; 7] = ["in", "and", "or", "not", "true", "false", "body"];
-
-/// The comment at the end of a line that begins with the name of an item, if it belongs to this item. It does if it
-/// follows the end of the item, or directly follows its opening brace.
-pub(super) fn comment_behind(line: &str) -> Option<&str> {
-    let (mut open, mut is_opened) = (0_usize, false);
-    // One token after the other, because the line may be as long as the text.
-    let (mut tokens, mut at) = (Vec::new(), 0);
-    while let Some((token, end)) = token::next(line, at, &tokens) {
-        at = end;
-        tokens.push(token);
-        match token.kind {
-            token::Kind::Comment => return (open == 0 || is_opened).then_some(token.text),
-            token::Kind::Keyword if open == 0 && !WITHIN_ITEMS.contains(&token.text) => return None,
-            _ if token.is("(") || token.is("{") => open += 1,
-            _ if token.is(")") || token.is("}") => open = open.saturating_sub(1),
-            _ => {}
-        }
-        is_opened = open == 1 && token.is("{");
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,7 +79,7 @@ mod tests {
         fn any_text_has_a_layout(text in "(\\PC|\n|\t| |[-a-z0-9:{}()|\"#*/.,<>=]){0,200}", starts in any::<[u8; 8]>()) {
             let mut starts = starts.map(usize::from);
             starts.sort_unstable();
-            let tokens = token::tokens(&text);
+            let tokens = tokens(&text);
             let covered: usize = tokens.iter().map(|token| token.text.len()).sum();
             prop_assert!(covered <= text.len());
             let mut lines = line_break::break_lines(&structure::structure(tokens, &starts));

@@ -1,7 +1,7 @@
 //! Spacing between two tokens on a line.
 
 use super::structure::{Element, Role};
-use super::token::{Kind, Token};
+use crate::token::{Kind, Token};
 
 /// Marks with a blank on both sides, apart from exceptions. Around other marks the author's blanks stay, so that two
 /// marks cannot become one with another meaning.

@@ -1,9 +1,7 @@
 //! Groups of tokens: operators with operands, brackets, blocks, statements.
 
-use super::token::{Kind, Token};
-
-/// Keywords that are values.
-const VALUES: [&str; 3] = ["body", "true", "false"];
+use crate::token::{Kind, Token};
+use crate::word::{Word, reserved};
 
 /// The role of a token among its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,7 +102,7 @@ pub(super) fn structure<'t>(tokens: Vec<Token<'t>>, starts: &[usize]) -> Structu
 fn role(token: &Token<'_>, after_operand: bool) -> Role {
     match token.kind {
         Kind::Name | Kind::Number | Kind::Unit | Kind::Text => Role::Operand,
-        Kind::Keyword if VALUES.contains(&token.text) => Role::Operand,
+        Kind::Keyword if reserved(token.text).is_some_and(Word::is_value) => Role::Operand,
         Kind::Keyword | Kind::Comment => Role::Other,
         Kind::Mark => match token.text {
             ")" | "]" => Role::Closes,

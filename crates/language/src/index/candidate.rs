@@ -14,10 +14,10 @@ use vibrissa_text::diagnostic::Span;
 use super::applied::is_part;
 use super::context::{Context, Expected, Level, context};
 use super::import::{exports, heading};
-use super::keyword::{Keyword, Position, keyword, keywords_at};
 use super::operands::Owner;
 use super::symbol::{Symbol, SymbolKind};
 use super::{Index, text};
+use crate::word::{Position, Word, word, words_at};
 
 /// The kind of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,8 +55,6 @@ pub struct Candidate {
     pub snippet: String,
 }
 
-/// Keywords that begin an item of a library.
-const IN_LIBRARIES: [&str; 6] = ["use", "let", "law", "type", "behaviour", "monitor"];
 /// Dimensions of numbers that occur in policies.
 const WRITTEN: [Dimension; 10] = [
     Dimension::LENGTH,
@@ -113,9 +111,9 @@ impl Index {
             }
             Expected::Parameter => of_kind(&[SymbolKind::Parameter]).collect(),
             Expected::Contour => of_kind(&[SymbolKind::Contour]).collect(),
-            Expected::Mark => keywords_at(Position::Mark).map(of_keyword).collect(),
-            Expected::Need => keywords_at(Position::Need).map(of_keyword).collect(),
-            Expected::TipModel => keywords_at(Position::TipModel).map(of_keyword).collect(),
+            Expected::Mark => words_at(Position::Mark).map(of_keyword).collect(),
+            Expected::Need => words_at(Position::Need).map(of_keyword).collect(),
+            Expected::TipModel => words_at(Position::TipModel).map(of_keyword).collect(),
             Expected::File => modules(&format!("{ROOT}.")).collect(),
             Expected::Module => modules("").collect(),
             Expected::Chosen => self.exported(context),
@@ -133,13 +131,13 @@ impl Index {
             Expected::Dimension => dimensions().collect(),
             Expected::Unit => units().collect(),
             Expected::Value => self.values(context),
-            Expected::Machine => keywords_at(Position::File).map(of_keyword).collect(),
+            Expected::Machine => words_at(Position::File).map(of_keyword).collect(),
             Expected::Family => families().collect(),
             Expected::FamilyParameter(family) => family_parameters(family).collect(),
-            Expected::Only(text) => keyword(text).map(of_keyword).into_iter().collect(),
+            Expected::Only(text) => word(text).map(of_keyword).into_iter().collect(),
             Expected::Statement(level) => self.statements(level).collect(),
             Expected::More(level, words) => {
-                words.iter().filter_map(|text| keyword(text)).map(of_keyword).chain(self.statements(level)).collect()
+                words.iter().filter_map(|text| word(text)).map(of_keyword).chain(self.statements(level)).collect()
             }
         }
     }
@@ -176,7 +174,7 @@ impl Index {
             symbol.kind.is_value() || matches!(symbol.kind, SymbolKind::Enumeration | SymbolKind::Compound)
         };
         let named = self.known(context).filter(is_value).map(|symbol| self.symbol(symbol));
-        named.chain(keywords_at(Position::Value).map(of_keyword)).chain(functions()).collect()
+        named.chain(words_at(Position::Value).map(of_keyword)).chain(functions()).collect()
     }
 
     /// The records and lists, as types.
@@ -207,7 +205,7 @@ impl Index {
     fn values_of_a_run(&self, context: &Context) -> Vec<Candidate> {
         let kinds = [SymbolKind::Parameter, SymbolKind::Derived];
         let named = self.known(context).filter(|symbol| kinds.contains(&symbol.kind)).map(|symbol| self.symbol(symbol));
-        keywords_at(Position::Run).map(of_keyword).chain(named).chain(functions()).collect()
+        words_at(Position::Run).map(of_keyword).chain(named).chain(functions()).collect()
     }
 
     /// Names that the file of the current `use` provides.
@@ -220,16 +218,16 @@ impl Index {
 
     /// Keywords that begin a statement or an item at this level of braces.
     fn statements(&self, level: Level) -> impl Iterator<Item = Candidate> {
+        let heading = self.symbols().iter().find(|symbol| symbol.kind == SymbolKind::Machine);
+        let is_library = heading.is_some_and(|heading| self.source.slice(heading.whole).starts_with("library"));
         let position = match level {
+            Level::Outside if is_library => Position::Library,
             Level::Outside => Position::Item,
             Level::State => Position::State,
             Level::Test => Position::Test,
             Level::Block => Position::Statement,
         };
-        let heading = self.symbols().iter().find(|symbol| symbol.kind == SymbolKind::Machine);
-        let is_library = heading.is_some_and(|heading| self.source.slice(heading.whole).starts_with("library"));
-        let fits = move |word: &&Keyword| level != Level::Outside || !is_library || IN_LIBRARIES.contains(&word.text);
-        keywords_at(position).filter(fits).map(of_keyword)
+        words_at(position).map(of_keyword)
     }
 
     pub(super) fn symbol(&self, symbol: &Symbol) -> Candidate {
@@ -246,7 +244,7 @@ impl Index {
     }
 }
 
-pub(super) fn of_keyword(word: &'static Keyword) -> Candidate {
+pub(super) fn of_keyword(word: &'static Word) -> Candidate {
     Candidate {
         label: word.text.to_owned(),
         kind: CandidateKind::Keyword,

@@ -1,14 +1,16 @@
 //! The context of completion, determined by the text before the position.
 
-use crate::format::{Token, TokenKind, tokens};
+use crate::scan::are_braces_balanced;
+use crate::token::{Kind as TokenKind, Token, tokens};
+use crate::word::{Word, word};
 use vibrissa_declare::catalogue;
 use vibrissa_text::diagnostic::Span;
 
-use super::declare::{Frame, declare, is_balanced, span_of};
+use super::declare::{Frame, declare};
 
 /// The construct that is expected at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Expected {
+pub(crate) enum Expected {
     Nothing,
     /// A member of the operand before the `.` at this byte.
     Member(usize),
@@ -68,7 +70,7 @@ pub(super) enum Expected {
 
 /// The kind of the innermost braces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Level {
+pub(crate) enum Level {
     /// Outside of all braces.
     Outside,
     /// Braces of a state.
@@ -123,12 +125,12 @@ pub(super) fn context(text: &str, at: usize) -> Context {
     }
     known.retain(|token| token.kind != TokenKind::Comment);
     let is_word = |token: &&Token<'_>| matches!(token.kind, TokenKind::Name | TokenKind::Keyword | TokenKind::Unit);
-    let typed = known.last().filter(is_word).map(|token| span_of(*token)).filter(|span| span.end == at);
+    let typed = known.last().filter(is_word).map(Token::span).filter(|span| span.end == at);
     if typed.is_some() {
         known.pop();
     }
     let typed = typed.unwrap_or(Span::new(at, at));
-    let declared = declare(before, &known, is_balanced(&tokens(text)));
+    let declared = declare(before, &known, are_braces_balanced(text));
     let frame = declared.frames.last().cloned().unwrap_or_default();
     let level = match frame.head {
         None => Level::Outside,
@@ -179,7 +181,6 @@ fn expected(known: &[Token<'_>], statement: &[Token<'_>], level: Level, typed: S
         (TokenKind::Mark, "(") if level == Level::Test && matches!(behind(known, 1), Some("visits" | "time_in")) => {
             Expected::State
         }
-        (TokenKind::Name, "over") if head == Some("property") => Expected::Family,
         (TokenKind::Mark, "(" | ",") if head == Some("property") => {
             family_of(statement).map_or(Expected::Nothing, Expected::FamilyParameter)
         }
@@ -225,33 +226,17 @@ fn known_apart(typed: Span, number: Token<'_>) -> bool {
     typed.start > number.start + number.text.len() + 1
 }
 
-fn behind_word(word: &str, statement: &[Token<'_>], level: Level) -> Expected {
+fn behind_word(text: &str, statement: &[Token<'_>], level: Level) -> Expected {
     let head = statement.first().map(|token| token.text);
-    match word {
-        "contour" | "of" | "points" if head == Some("contour") => Expected::Nothing,
+    match text {
+        "of" if head == Some("contour") => Expected::Nothing,
         "in" if head == Some("record") => Expected::Contour,
-        "machine" | "library" | "whisker" | "param" | "type" | "law" | "state" | "let" | "var" | "in" | "entry"
-        | "exit" | "test" | "property" | "behaviour" | "monitor" | "plot" | "log" => Expected::Nothing,
-        "initial" => Expected::Initial,
         "is" if head == Some("monitor") => Expected::Monitor,
-        "tell" => Expected::Monitor,
-        "is" => Expected::Behaviour,
-        "on" => Expected::Connected,
-        "do" => Expected::Law,
         "set" if level == Level::Test => Expected::Parameter,
-        "set" => Expected::Memory,
-        "mark" => Expected::Mark,
-        "needs" => Expected::Need,
-        "by" => Expected::TipModel,
-        "use" => Expected::File,
-        "resume" => Expected::Resumed,
-        "failsafe" => Expected::Only("->"),
-        "of" => Expected::Dimension,
         "always" if level == Level::Outside => Expected::Only("when"),
         "else" => Expected::Only("if"),
         "if" if head == Some("whisker") => Expected::Only("fitted"),
-        "true" | "false" | "body" | "hold" | "stop" | "apart" => more(statement, level),
-        _ => Expected::Value,
+        _ => word(text).map_or(Some(Expected::Value), Word::next).unwrap_or_else(|| more(statement, level)),
     }
 }
 

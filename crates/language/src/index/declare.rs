@@ -4,15 +4,15 @@
 //! beginning of a statement determines the kind of its braces. In a text with unclosed braces, an item keyword in the
 //! first column of a line closes them.
 
-use crate::format::{Token, TokenKind};
 use crate::grammar::is_before_expression;
+use crate::token::{Kind as TokenKind, Token};
 use crate::types::{Choices, Type};
 use vibrissa_runtime::units::{Dimension, parse_unit};
 use vibrissa_text::diagnostic::Span;
 
-use super::keyword::{Position, keyword};
 use super::symbol::{Symbol, SymbolKind};
 use super::type_name::type_name;
+use crate::word::{Position, word};
 
 /// The content of a pair of braces, or the text outside of all braces.
 #[derive(Debug, Clone, Default)]
@@ -40,20 +40,6 @@ pub(super) struct Declared<'t> {
     is_balanced: bool,
     /// End of the last token.
     end: usize,
-}
-
-/// True if the braces of the tokens are balanced.
-pub(super) fn is_balanced(tokens: &[Token<'_>]) -> bool {
-    let mut depth = 0_usize;
-    for token in tokens.iter().filter(|token| token.kind == TokenKind::Mark) {
-        match token.text {
-            "{" => depth += 1,
-            "}" if depth == 0 => return false,
-            "}" => depth -= 1,
-            _ => {}
-        }
-    }
-    depth == 0
 }
 
 /// Reads the declarations of `tokens`, which contain no comments. They may be the beginning of a text with balanced
@@ -104,7 +90,7 @@ impl<'t> Declared<'t> {
         let token = tokens[index];
         let before = index.checked_sub(1).map(|before| tokens[before]);
         let is_type = token.text == "whisker" && before.is_some_and(|before| before.is(":"));
-        let Some(known) = keyword(token.text).filter(|word| word.begins_statement() && !is_type) else { return };
+        let Some(known) = word(token.text).filter(|word| word.begins() && !is_type) else { return };
         // `always when` and `else if` are one statement, and `-> exit name` is a target.
         let is_target = token.text == "exit" && before.is_some_and(|before| before.is("->"));
         if is_target || before.is_some_and(|before| ["always", "else"].contains(&before.text)) {
@@ -113,7 +99,7 @@ impl<'t> Declared<'t> {
         if token.text == "if" && before.is_some_and(|before| is_before_expression(before.text)) {
             return;
         }
-        if !self.is_balanced && known.positions.contains(&Position::Item) && begins_line_unindented(text, token.start) {
+        if !self.is_balanced && known.is_at(Position::Item) && begins_line_unindented(text, token.start) {
             while self.frames.len() > 1 {
                 self.close(self.end);
             }
@@ -175,7 +161,7 @@ impl<'t> Declared<'t> {
 
     fn declare(&mut self, tokens: &[Token<'t>], name: usize, start: usize, kind: SymbolKind) -> usize {
         let token = tokens[name];
-        let span = span_of(token);
+        let span = token.span();
         let r#type = match kind {
             SymbolKind::Whisker => Some(Type::Whisker),
             SymbolKind::Contour => Some(Type::Contour),
@@ -209,14 +195,14 @@ impl<'t> Declared<'t> {
         }
         let mut at = open + 1;
         while let Some(name) = tokens.get(at).filter(|token| token.kind == TokenKind::Name) {
-            let span = span_of(*name);
+            let span = name.span();
             let (mut end, mut r#type) = (at, None);
             if tokens.get(at + 1).is_some_and(|token| token.is(":"))
                 && let Some((name, last)) = type_name(tokens, at + 2)
             {
                 (end, r#type) = (last, Type::named(&name));
             }
-            let whole = span.to(span_of(tokens[end]));
+            let whole = span.to(tokens[end].span());
             self.symbols[owner].arguments.push(name.text.to_owned());
             let index = self.symbols.len();
             let is_field = self.symbols[owner].kind == SymbolKind::Compound;
@@ -250,7 +236,7 @@ impl<'t> Declared<'t> {
         while tokens.get(at - 1).is_some_and(|before| before.is("=") || before.text == "or")
             && let Some(name) = tokens.get(at).filter(|token| token.kind == TokenKind::Name)
         {
-            let span = span_of(*name);
+            let span = name.span();
             self.symbols.push(Symbol {
                 name: name.text.to_owned(),
                 kind: SymbolKind::Choice,
@@ -277,7 +263,7 @@ impl<'t> Declared<'t> {
         let names = names.take_while(|token| token.kind == TokenKind::Name || token.is(","));
         let is_list = tokens.get(open).is_some_and(|token| token.is("("));
         for name in names.filter(|token| is_list && token.kind == TokenKind::Name) {
-            let (index, span) = (self.symbols.len(), span_of(*name));
+            let (index, span) = (self.symbols.len(), name.span());
             self.symbols.push(Symbol {
                 name: name.text.to_owned(),
                 kind: SymbolKind::Argument,
@@ -343,10 +329,6 @@ pub(super) fn behaviour_around(symbols: &[Symbol], symbol: usize) -> Option<usiz
     // An owner precedes what it contains.
     let around = std::iter::successors(Some(symbol), owner).skip(1).take(symbols.len());
     around.into_iter().find(|&around| symbols.get(around).is_some_and(|symbol| symbol.kind == SymbolKind::Behaviour))
-}
-
-pub(super) fn span_of(token: Token<'_>) -> Span {
-    Span::new(token.start, token.start + token.text.len())
 }
 
 /// The index of the token behind a default, `= value`, which ends with its list or at a comma. `at` if there is none.

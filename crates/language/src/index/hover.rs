@@ -9,8 +9,8 @@ use vibrissa_text::diagnostic::Span;
 
 use super::Index;
 use super::import::{exports, heading};
-use super::keyword::keyword;
 use super::symbol::{Meaning, Symbol, SymbolKind};
+use crate::word::word;
 
 /// The maximum length of a line that is searched for a comment (bytes). It bounds the time for a text with many names.
 const LINE_LIMIT: usize = 4096;
@@ -54,7 +54,7 @@ impl Index {
                 paragraphs(&[code(unit), unit_line(unit, dimension)])
             }
             Meaning::Keyword(text) => {
-                let word = keyword(text)?;
+                let word = word(text)?;
                 paragraphs(&[code(&word.usage()), word.meaning.to_owned()])
             }
             Meaning::Family(entry) => {

@@ -5,13 +5,13 @@
 use std::ops::Range;
 
 use crate::ast::{From, Name, Use};
-use crate::format::{Token, TokenKind};
 use crate::path;
+use crate::token::{Kind as TokenKind, Token};
 use crate::types::{Choices, Compound, Type};
 use vibrissa_text::diagnostic::{Source, Span};
 
 use super::code_tokens;
-use super::declare::{declare, span_of};
+use super::declare::declare;
 use super::symbol::{Symbol, SymbolKind};
 
 /// A `use`, complete or not.
@@ -61,14 +61,15 @@ fn import(using: &str, tokens: &[Token<'_>], word: usize) -> Option<Import> {
         }
         _ => return None,
     };
-    let span = span_of(*first).to(span_of(tokens[next - 1]));
+    let span = first.span().to(tokens[next - 1].span());
     let mut names = None;
     if tokens.get(next).is_some_and(|token| token.is("(")) {
         let listed = tokens[next + 1..].iter().take_while(|token| token.kind == TokenKind::Name || token.is(","));
         let listed: Vec<Token<'_>> = listed.copied().collect();
         next += 1 + listed.len();
         next += usize::from(tokens.get(next).is_some_and(|token| token.is(")")));
-        names = Some(listed.into_iter().filter(|token| token.kind == TokenKind::Name).map(span_of).collect());
+        names =
+            Some(listed.into_iter().filter(|token| token.kind == TokenKind::Name).map(|token| token.span()).collect());
     }
     let used = Use { from, span, names: None };
     let file = path::resolve(using, &used).ok();
@@ -76,7 +77,7 @@ fn import(using: &str, tokens: &[Token<'_>], word: usize) -> Option<Import> {
 }
 
 fn named(token: Token<'_>) -> Name {
-    Name { text: token.text.to_owned(), span: span_of(token) }
+    Name { text: token.text.to_owned(), span: token.span() }
 }
 
 /// Appends the symbols that a `use` imports. The first `own` symbols are those of the text itself.

@@ -11,11 +11,8 @@ mod context;
 mod declare;
 mod hover;
 mod import;
-mod keyword;
 mod operands;
 mod origin;
-#[cfg(test)]
-pub(super) mod reference;
 mod rename;
 mod resolve;
 mod state;
@@ -26,14 +23,17 @@ use std::collections::HashMap;
 
 use vibrissa_text::diagnostic::{Source, Span};
 
-use super::format::{Token, TokenKind, tokens};
 use super::load::{self, FILE_LIMIT, Library};
 use super::lower;
+use super::scan::are_braces_balanced;
+use super::token::{Kind as TokenKind, Token, tokens};
 use super::types::Type;
 
 use import::Import;
 use resolve::Resolved;
 use symbol::{Meaning, Use};
+
+pub(crate) use context::Expected;
 
 pub use candidate::{Candidate, CandidateKind};
 pub use hover::Hover;
@@ -104,7 +104,7 @@ impl Index {
         let source = complete(source, refuse);
         let text = text(&source);
         let tokens = code_tokens(text);
-        let mut symbols = declare::declare(text, &tokens, declare::is_balanced(&tokens)).finish(text);
+        let mut symbols = declare::declare(text, &tokens, are_braces_balanced(text)).finish(text);
         let own = symbols.len();
         let imports = import::imports(&source.name, &tokens);
         for import in imports.iter().take(FILE_LIMIT) {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::builtins;
-use crate::format::{Token, TokenKind};
+use crate::token::{Kind as TokenKind, Token};
 use crate::types::Type;
 
 use super::symbol::{Meaning, Symbol, SymbolKind};

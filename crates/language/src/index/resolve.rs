@@ -3,19 +3,18 @@
 use std::collections::HashMap;
 
 use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS};
-use crate::format::{Token, TokenKind};
+use crate::token::{Kind as TokenKind, Token};
 use crate::types::{Compound, Type, dimension};
 use vibrissa_declare::catalogue::{self, Entry};
 use vibrissa_runtime::units::parse_unit;
 use vibrissa_text::diagnostic::{Source, Span};
 
 use super::applied::{self, Applied};
-use super::declare::span_of;
 use super::import::Import;
-use super::keyword::{Keyword, Position, keyword};
 use super::operands::{Operands, Owner};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
+use crate::word::{Position, Word, word};
 
 /// The words of a text with their meanings, in the order of the text.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -61,8 +60,7 @@ pub(super) fn resolve(
                 type_end = named.as_ref().map_or(0, |(_, last)| last + 1);
                 let built_in = named.and_then(|(name, _)| Type::named(&name)).map(Meaning::Type);
                 let own = names.own_type(token.text).filter(|_| built_in.is_none());
-                let argument =
-                    index.checked_sub(2).and_then(|name| names.declared.get(&span_of(tokens[name])).copied());
+                let argument = index.checked_sub(2).and_then(|name| names.declared.get(&tokens[name].span()).copied());
                 resolved.behaviours.extend(argument.zip(own.filter(|&own| symbols[own].kind == SymbolKind::Monitor)));
                 built_in.or_else(|| own.map(|index| Meaning::Symbol(index, Role::Reads)))
             }
@@ -70,15 +68,12 @@ pub(super) fn resolve(
             TokenKind::Name
                 if is_before("mark") || is_before("needs") || is_before("=") && is_element(tokens, index + 3) =>
             {
-                keyword(token.text).filter(|word| is_contextual(word)).map(|word| Meaning::Keyword(word.text))
+                word(token.text).filter(|word| is_contextual(word)).map(|word| Meaning::Keyword(word.text))
             }
             TokenKind::Name if is_before("if") && is_fitted(token.text, tokens.get(index + 1)) => {
-                keyword(token.text).map(|word| Meaning::Keyword(word.text))
+                word(token.text).map(|word| Meaning::Keyword(word.text))
             }
             // A member, or an inner state: `-> Outer(w).Inner`.
-            TokenKind::Name if token.text == "over" && before.is_some_and(|before| before.kind == TokenKind::Text) => {
-                Some(Meaning::Keyword("over"))
-            }
             TokenKind::Name if is_family(&tokens[..index]) => {
                 family = catalogue::entry(token.text);
                 family.map(Meaning::Family)
@@ -100,13 +95,13 @@ pub(super) fn resolve(
                 if tokens.get(index + 1).is_some_and(|next| next.is(":"))
                     && let Some(argument) = operands.argument(token.text) =>
             {
-                let is_declared = symbols[argument].span == span_of(*token);
+                let is_declared = symbols[argument].span == token.span();
                 Some(Meaning::Symbol(argument, if is_declared { Role::Declares } else { Role::Reads }))
             }
             TokenKind::Name if is_before("exit") && index > 1 && tokens[index - 2].is("->") => {
                 names.of_kind(token.text, SymbolKind::Exit).map(|exit| Meaning::Symbol(exit, Role::Reads))
             }
-            TokenKind::Name if is_before("on") => match names.declared.get(&span_of(*token)) {
+            TokenKind::Name if is_before("on") => match names.declared.get(&token.span()) {
                 Some(&event) if symbols[event].kind == SymbolKind::Event => {
                     Some(Meaning::Symbol(event, Role::Declares))
                 }
@@ -114,9 +109,9 @@ pub(super) fn resolve(
             },
             TokenKind::Name => {
                 let role = if is_before("set") { Role::Writes } else { Role::Reads };
-                names.meaning(span_of(*token), token.text, role)
+                names.meaning(token.span(), token.text, role)
             }
-            TokenKind::Keyword => keyword(token.text).map(|word| Meaning::Keyword(word.text)),
+            TokenKind::Keyword => word(token.text).map(|word| Meaning::Keyword(word.text)),
             TokenKind::Unit => {
                 parse_unit(&token.text.replace('*', " ")).ok().map(|unit| Meaning::Unit(unit.dimension()))
             }
@@ -134,7 +129,7 @@ pub(super) fn resolve(
             operands.note_monitor(argument, &resolved.behaviours);
         }
         if is_word || token.kind == TokenKind::Unit {
-            resolved.uses.push(Use { span: span_of(*token), meaning: meaning.unwrap_or(Meaning::Unknown) });
+            resolved.uses.push(Use { span: token.span(), meaning: meaning.unwrap_or(Meaning::Unknown) });
         }
     }
     resolved.uses.extend(imports.iter().flat_map(|import| of_import(source, symbols, own, import)));
@@ -167,10 +162,8 @@ fn is_element(tokens: &[Token<'_>], index: usize) -> bool {
 }
 
 /// True if a word has its meaning only after `mark`, `needs` or the title of a property.
-fn is_contextual(word: &Keyword) -> bool {
-    [[Position::Mark], [Position::Need], [Position::Property], [Position::Type]]
-        .iter()
-        .any(|positions| word.positions == positions)
+fn is_contextual(word: &Word) -> bool {
+    [Position::Mark, Position::Need, Position::Property, Position::Type].iter().any(|&only| word.is_only_at(only))
 }
 
 /// True if `if` is followed by the end of `whisker a if fitted`. A condition would continue.
@@ -225,7 +218,7 @@ impl<'s> Names<'s> {
     /// True if the `:` before a token follows the name of a declared argument.
     fn is_declaration(&self, tokens: &[Token<'_>], index: usize) -> bool {
         let name = index.checked_sub(2).and_then(|name| tokens.get(name));
-        name.is_some_and(|name| self.declared.contains_key(&span_of(*name)))
+        name.is_some_and(|name| self.declared.contains_key(&name.span()))
     }
 
     fn advance(&mut self, at: usize) {
@@ -254,7 +247,7 @@ impl<'s> Names<'s> {
         }
         match FUNCTIONS.iter().position(|&(known, ..)| known == name) {
             Some(function) => Some(Meaning::Function(function)),
-            None => keyword(name).filter(|word| !is_contextual(word)).map(|word| Meaning::Keyword(word.text)),
+            None => word(name).filter(|word| !is_contextual(word)).map(|word| Meaning::Keyword(word.text)),
         }
     }
 

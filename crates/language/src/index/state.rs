@@ -8,14 +8,14 @@ use super::Index;
 use super::candidate::{Candidate, of_keyword};
 use super::context::Context;
 use super::declare::behaviour_around;
-use super::keyword::{Position, keywords_at};
 use super::symbol::SymbolKind;
+use crate::word::{Position, words_at};
 
 impl Index {
     /// Candidates after `->`.
     pub(super) fn targets(&self, context: &Context) -> Vec<Candidate> {
         let can_resume = !self.nesting().is_empty();
-        let words = keywords_at(Position::Target).filter(|word| can_resume || word.text != "resume");
+        let words = words_at(Position::Target).filter(|word| can_resume || word.text != "resume");
         let states = self.states_around(context).into_iter().map(|state| self.target(state, context));
         let exits = self.known(context).filter(|symbol| symbol.kind == SymbolKind::Exit).map(|exit| {
             let candidate = self.symbol(exit);

@@ -1,9 +1,7 @@
 //! Type names among tokens.
 
 use crate::ast::{Binary, Name, TypeName};
-use crate::format::{Token, TokenKind};
-
-use super::declare::span_of;
+use crate::token::{Kind as TokenKind, Token};
 
 /// The type that is named from the token `at` on, and the index of its last token: `length`, `vector of length`,
 /// `angular_speed / length`.
@@ -12,7 +10,7 @@ pub(super) fn type_name(tokens: &[Token<'_>], at: usize) -> Option<(TypeName, us
         let token = tokens
             .get(at)
             .filter(|token| matches!(token.kind, TokenKind::Name | TokenKind::Keyword | TokenKind::Unit))?;
-        Some(Name { text: token.text.to_owned(), span: span_of(*token) })
+        Some(Name { text: token.text.to_owned(), span: token.span() })
     };
     let (base, mut last) = (name(at)?, at);
     let is = |at: usize, text: &str| tokens.get(at).is_some_and(|token| token.text == text);

@@ -1,8 +1,8 @@
-//! The words of the reference page, generated from the table of keywords.
+//! The words of the reference page, generated from the table of words.
 
 use std::fmt::Write;
 
-use super::keyword::{KEYWORDS, Keyword, Position};
+use super::word::{Position, WORDS, Word};
 
 const INTRODUCTION: &str = "
 ## Words
@@ -13,7 +13,7 @@ your own. [Semantics](language-semantics.md) has the rules that concern several 
 
 /// The sections of the words, each with the positions of its words. The last position of a word decides its section.
 const SECTIONS: [(&str, &[Position]); 7] = [
-    ("Items", &[Position::File, Position::Item, Position::Type]),
+    ("Items", &[Position::File, Position::Item, Position::Library, Position::Type]),
     ("States and transitions", &[Position::State, Position::Target]),
     ("Statements and commands", &[Position::Statement]),
     ("Parts of items and statements", &[Position::Inside, Position::Mark, Position::Need, Position::Property]),
@@ -27,15 +27,15 @@ pub(crate) fn words(page: &mut String) {
     *page += INTRODUCTION;
     for (title, positions) in SECTIONS {
         let _ = write!(page, "\n### {title}\n\n| word | allowed | notation | meaning |\n|---|---|---|---|\n");
-        for word in KEYWORDS.iter().filter(|word| word.positions.last().is_some_and(|last| positions.contains(last))) {
-            let allowed = word.positions.iter().map(|&position| place(position)).collect::<Vec<_>>().join(", ");
+        for word in WORDS.iter().filter(|word| word.positions().last().is_some_and(|last| positions.contains(last))) {
+            let allowed = word.positions().iter().map(|&position| place(position)).collect::<Vec<_>>().join(", ");
             let _ = writeln!(page, "| `{}` | {allowed} | `{}` | {} |", word.text, notation(word), word.meaning);
         }
     }
 }
 
 /// The notation of a word on one line.
-fn notation(word: &Keyword) -> String {
+fn notation(word: &Word) -> String {
     word.usage().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
@@ -44,6 +44,7 @@ fn place(position: Position) -> &'static str {
     match position {
         Position::File => "at the beginning of a file",
         Position::Item => "outside of braces",
+        Position::Library => "in a library",
         Position::State => "in a state",
         Position::Test => "in a test or a property",
         Position::Statement => "in any braces",
@@ -64,5 +65,5 @@ fn every_word_is_in_one_section() {
     let mut page = String::new();
     words(&mut page);
     let rows = page.lines().filter(|line| line.starts_with("| `"));
-    assert_eq!(rows.count(), KEYWORDS.len());
+    assert_eq!(rows.count(), WORDS.len());
 }

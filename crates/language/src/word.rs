@@ -1,12 +1,26 @@
-//! Keywords: allowed positions, notation, meaning.
+//! The words of the language: allowed positions, notation, meaning.
+//!
+//! All other lists of words follow from this table and from the rules of the grammar: completion, recovery from syntax
+//! errors, the names in their messages, and the colours of editors.
 
-/// A position in which a keyword is allowed.
+use std::collections::{BTreeMap, HashMap};
+use std::sync::LazyLock;
+
+use super::builtins::FUNCTIONS;
+use super::grammar::is_keyword;
+use super::index::Expected;
+use super::types::{DIMENSIONS, PLAIN_TYPES};
+use vibrissa_runtime::units::{Dimension, units_of};
+
+/// A position in which a word is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Position {
     /// At the beginning of a file.
     File,
     /// Outside of all braces.
     Item,
+    /// Outside of all braces in a library.
+    Library,
     /// In the braces of a state.
     State,
     /// In the braces of a test or a property.
@@ -33,21 +47,111 @@ pub(super) enum Position {
     Type,
 }
 
-/// A keyword.
+/// The role of a word, which editors show by its colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Role {
+    /// It begins a declaration.
+    Declaration,
+    /// It begins or joins a part of the control flow.
+    Control,
+    /// It belongs to a command or another action.
+    Action,
+    /// It joins values.
+    Operator,
+    /// It is a value that never changes.
+    Constant,
+    /// It is another value.
+    Variable,
+}
+
+/// The grammatical properties of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Keyword {
+pub(super) struct Class {
+    role: Role,
+    positions: &'static [Position],
+    /// What follows the word. `None` if the word may end a statement.
+    next: Option<Expected>,
+}
+
+impl Class {
+    const fn new(role: Role, positions: &'static [Position], next: Expected) -> Self {
+        Self { role, positions, next: Some(next) }
+    }
+
+    /// The class of a word that is followed by `next`.
+    const fn before(self, next: Expected) -> Self {
+        Self { next: Some(next), ..self }
+    }
+
+    /// The class of a word that may end a statement.
+    const fn complete(self) -> Self {
+        Self { next: None, ..self }
+    }
+}
+
+/// A word of the language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Word {
     pub(super) text: &'static str,
-    pub(super) positions: &'static [Position],
+    class: Class,
     /// The text to insert, with placeholders `${1:…}`.
     pub(super) snippet: &'static str,
     pub(super) meaning: &'static str,
 }
 
-impl Keyword {
-    /// True if a statement, a transition or an item begins with the keyword.
+impl Word {
+    /// Where the word is allowed.
+    pub(super) fn positions(&self) -> &'static [Position] {
+        self.class.positions
+    }
+
+    pub(super) fn is_at(&self, position: Position) -> bool {
+        self.positions().contains(&position)
+    }
+
+    /// True if the word is allowed in this position only.
+    pub(super) fn is_only_at(&self, position: Position) -> bool {
+        self.class.positions == [position]
+    }
+
+    /// What follows the word. `None` if the word may end a statement.
+    pub(super) fn next(&self) -> Option<Expected> {
+        self.class.next
+    }
+
+    /// True if a statement, a transition or an item begins with the word.
+    pub(super) fn begins(&self) -> bool {
+        self.begins_item() || self.begins_part() || self.is_at(Position::Statement)
+    }
+
+    /// True if an item begins with the word.
+    pub(super) fn begins_item(&self) -> bool {
+        self.class.role == Role::Declaration && (self.is_at(Position::File) || self.is_at(Position::Item))
+    }
+
+    /// True if a statement other than a declaration begins with the word.
     pub(super) fn begins_statement(&self) -> bool {
-        use Position::{File, Item, State, Statement, Test};
-        self.positions.iter().any(|position| [File, Item, State, Statement, Test].contains(position))
+        self.class.role != Role::Declaration && self.is_at(Position::Statement)
+    }
+
+    /// True if a part of a state or a test begins with the word.
+    pub(super) fn begins_part(&self) -> bool {
+        self.is_at(Position::State) || self.is_at(Position::Test)
+    }
+
+    /// True if the word can begin a continuation line.
+    pub(super) fn continues(&self) -> bool {
+        self.is_at(Position::Inside) || self.is_at(Position::Value)
+    }
+
+    /// True if the word is a value by itself.
+    pub(super) fn is_value(&self) -> bool {
+        self.is_at(Position::Value) && self.next().is_none()
+    }
+
+    /// True if the word is an operator.
+    pub(super) fn is_operator(&self) -> bool {
+        self.class.role == Role::Operator
     }
 
     /// The notation: the snippet without its placeholders' marks.
@@ -66,32 +170,44 @@ impl Keyword {
     }
 }
 
-const fn entry(
-    text: &'static str,
-    positions: &'static [Position],
-    snippet: &'static str,
-    meaning: &'static str,
-) -> Keyword {
-    Keyword { text, positions, snippet, meaning }
+const fn entry(text: &'static str, class: Class, snippet: &'static str, meaning: &'static str) -> Word {
+    Word { text, class, snippet, meaning }
 }
 
-const FILE: &[Position] = &[Position::File];
-const ITEM: &[Position] = &[Position::Item];
-const STATE: &[Position] = &[Position::State];
-const ITEM_OR_STATE: &[Position] = &[Position::Item, Position::State];
-const COMMAND: &[Position] = &[Position::State, Position::Statement];
-const STATEMENT: &[Position] = &[Position::Item, Position::State, Position::Statement];
-const INSIDE: &[Position] = &[Position::Inside];
-const VALUE: &[Position] = &[Position::Value];
-const TRUTH: &[Position] = &[Position::Value, Position::Run];
-const TARGET: &[Position] = &[Position::Target];
-const MARK: &[Position] = &[Position::Mark];
-const NEED: &[Position] = &[Position::Need];
-const TIP_MODEL: &[Position] = &[Position::TipModel];
-const PROPERTY: &[Position] = &[Position::Property];
+const FILE: Class = Class::new(Role::Declaration, &[Position::File], Expected::Nothing);
+const ITEM: Class = Class::new(Role::Declaration, &[Position::Item], Expected::Nothing);
+const LIBRARY: Class = Class::new(Role::Declaration, &[Position::Item, Position::Library], Expected::Nothing);
+const ITEM_OR_STATE: Class = Class::new(Role::Declaration, &[Position::Item, Position::State], Expected::Nothing);
+const EVERYWHERE: &[Position] = &[Position::Item, Position::State, Position::Statement];
+const LET: Class = Class::new(
+    Role::Declaration,
+    &[Position::Item, Position::Library, Position::State, Position::Statement],
+    Expected::Nothing,
+);
+const STATE: Class = Class::new(Role::Control, &[Position::State], Expected::Nothing);
+const TRANSITION: Class = Class::new(Role::Control, &[Position::State, Position::Inside], Expected::Value);
+const TEST: Class = Class::new(Role::Action, &[Position::Test], Expected::Value);
+const COMMAND: Class = Class::new(Role::Action, &[Position::State, Position::Statement], Expected::Value);
+const STATEMENT: Class = Class::new(Role::Action, EVERYWHERE, Expected::Value);
+const IF: Class = Class::new(Role::Control, EVERYWHERE, Expected::Value);
+const SET: Class =
+    Class::new(Role::Action, &[Position::Item, Position::State, Position::Statement, Position::Test], Expected::Memory);
+const INSIDE: Class = Class::new(Role::Control, &[Position::Inside], Expected::Value);
+const ACTION: Class = Class::new(Role::Action, &[Position::Inside], Expected::Value);
+const OPERATOR: Class = Class::new(Role::Operator, &[Position::Inside], Expected::Value);
+const NOT: Class = Class::new(Role::Operator, &[Position::Value, Position::Run], Expected::Value);
+const TRUTH: Class = Class::new(Role::Constant, &[Position::Value, Position::Run], Expected::Value).complete();
+const VALUE: Class = Class::new(Role::Variable, &[Position::Value], Expected::Value).complete();
+const RUN: Class = Class::new(Role::Variable, &[Position::Run], Expected::Value).complete();
+const TARGET: Class = Class::new(Role::Control, &[Position::Target], Expected::Value).complete();
+const MARK: Class = Class::new(Role::Constant, &[Position::Mark], Expected::Value);
+const NEED: Class = Class::new(Role::Variable, &[Position::Need], Expected::Value).complete();
+const TIP_MODEL: Class = Class::new(Role::Constant, &[Position::TipModel], Expected::Value).complete();
+const PROPERTY: Class = Class::new(Role::Control, &[Position::Property], Expected::Family);
+const TYPE: Class = Class::new(Role::Control, &[Position::Type], Expected::Value);
 
-/// Every keyword that is not a function.
-pub(super) const KEYWORDS: [Keyword; 81] = [
+/// Every word that is not a function.
+pub(super) const WORDS: [Word; 81] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -107,7 +223,7 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     ),
     entry(
         "use",
-        ITEM,
+        LIBRARY.before(Expected::File),
         "use ${1:std.swipe}",
         "Imports laws, derived values, types, behaviours and monitors of another file: all, or only those in parentheses. `use std.swipe` names a module of the standard library, and `use \"corner.fsm\"` a file, relative to the file that contains the `use`. What the other file imports itself is not imported again.",
     ),
@@ -118,41 +234,22 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
         "Binds whiskers of the rig by name, at most eight. `by` selects their contact estimator, and `if fitted` makes them optional.",
     ),
     entry(
-        "by",
-        INSIDE,
-        "by ${1:sliding}",
-        "The contact estimator of the whiskers: `sliding`, `one_channel`, `polynomial`, `moment_and_shear`, `recursive` or, in a simulator, `truth`. The default is `sliding`.",
-    ),
-    entry(
-        "fitted",
-        INSIDE,
-        "fitted",
-        "After `whisker a if`: these whiskers are optional. A missing whisker never touches, and its `a.fitted` is false.",
-    ),
-    entry(
-        "list",
-        &[Position::Type],
-        "list of ${1:8} ${2:position}",
-        "A list with at most so many elements of a type, from 1 to 16. A list is a value: `seen.with(w.tip)` is a list with a new element. A full list loses its oldest element.",
-    ),
-    entry(
         "contour",
         ITEM,
         "contour ${1:middle} of ${2:7} points ${3:5 mm} apart",
         "A contour of positions, fed by `record position in name`, at most eight in a policy. Without a name, the keypoints of the contours of all whiskers. The default is 7 points 1 mm apart.",
     ),
     entry(
-        "points",
-        INSIDE,
-        "points",
-        "The number of the newest points to which the curve of a contour is fitted, from 3 to 16. More points have less noise, but the tangent follows a bend later.",
-    ),
-    entry("apart", INSIDE, "apart", "The minimum distance between two points of a contour, from 0.1 mm to 20 mm."),
-    entry(
         "needs",
-        ITEM,
+        ITEM.before(Expected::Need),
         "needs ${1:control_rate} in ${2:20} .. ${3:30 Hz}",
         "A rate of the loop, or the age of its samples, and the range that the policy was made for. A lower end without a unit has the unit of the upper end. A simulation warns outside of the range, and a robot that cannot hold it refuses the policy.",
+    ),
+    entry(
+        "type",
+        LIBRARY,
+        "type ${1:Side} = ${2:left} or ${3:right}",
+        "A type: an enumeration such as `Side = left or right`, a record such as `Edge(place: position, way: direction)`, or a list such as `Places = list of 8 position`.",
     ),
     entry(
         "param",
@@ -161,20 +258,26 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
         "A number that a run may set within the range, or `true`, `false` or a value of an enumeration. The range is optional, and a lower end without a unit has the unit of the upper end.",
     ),
     entry(
-        "type",
-        ITEM,
-        "type ${1:Side} = ${2:left} or ${3:right}",
-        "A type: an enumeration such as `Side = left or right`, a record such as `Edge(place: position, way: direction)`, or a list such as `Places = list of 8 position`.",
-    ),
-    entry(
         "initial",
-        ITEM_OR_STATE,
+        ITEM_OR_STATE.before(Expected::Initial),
         "initial ${1:State}",
         "The initial state of a run, which has no arguments and is not inside another state. In a state, the inner state that is entered first.",
     ),
     entry(
+        "var",
+        ITEM_OR_STATE,
+        "var ${1:name} = ${2:value}",
+        "Memory, kept from tick to tick. It is set when the state is entered, or outside of states when a run starts, and by `set`.",
+    ),
+    entry(
+        "let",
+        LET,
+        "let ${1:name} = ${2:value}",
+        "Names a value. Outside of braces it may have arguments with defaults, and is computed at every use.",
+    ),
+    entry(
         "law",
-        ITEM,
+        LIBRARY,
         "law ${1:name}(${2:w: whisker}) {\n  ${0}\n}",
         "Named statements, executed with `do`. They are inlined wherever they are used, so a law cannot use itself.",
     ),
@@ -186,44 +289,37 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     ),
     entry(
         "behaviour",
-        ITEM,
+        LIBRARY,
         "behaviour ${1:name}(${2:w: whisker}) {\n  exit ${3:lost}\n  ${0}\n}",
         "A state machine with arguments and exits, the content of a state: `state Name is name(r0)`. It knows its arguments, its memory and the items of its file. Each use has separate memory.",
     ),
     entry(
         "monitor",
-        ITEM,
+        LIBRARY,
         "monitor ${1:name} {\n  var ${2:seen} = ${3:0}\n  ${0}\n}",
         "Memory with statements that run first in every tick. States read `name.seen`. With arguments, `monitor other is name(r0)` uses it. It cannot give a command, record or mark.",
     ),
     entry(
-        "is",
-        INSIDE,
-        "is ${1:behaviour}",
-        "The behaviour that is the content of the state, or the content of the monitor, with the values of its arguments.",
-    ),
-    entry(
         "always",
-        ITEM_OR_STATE,
+        ITEM_OR_STATE.before(Expected::Value),
         "always when ${1:condition} -> ${2:Target}",
         "Outside of braces, a global transition. It belongs to every state and precedes the transitions of the state itself. With `within`, a contract: `always condition within time` is violated if the condition is false for that time.",
     ),
     entry(
         "assume",
-        ITEM_OR_STATE,
+        ITEM_OR_STATE.before(Expected::Value),
         "assume ${1:condition}",
         "A contract: the condition holds when the state is entered. It has no effect on the machine. Runs and the robot report a violation.",
     ),
     entry(
         "never",
-        ITEM_OR_STATE,
+        ITEM_OR_STATE.before(Expected::Value),
         "never ${1:condition}",
         "A contract: the condition holds in no tick of the state. With `for`, it never holds for that time without interruption.",
     ),
-    entry("within", INSIDE, "within ${1:1 s}", "The time after which the condition of a contract has to hold again."),
     entry(
         "failsafe",
-        ITEM_OR_STATE,
+        ITEM_OR_STATE.before(Expected::Only("->")),
         "failsafe -> ${1:Target}",
         "The fallback transition of a state. It is taken if the command is not finite, or if a tick exceeds the microstep limit. Without one, that of the nearest outer state is taken, or else that of the machine.",
     ),
@@ -240,34 +336,59 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
         "Expectations that hold for every run in the scenes of a family.",
     ),
     entry(
+        "by",
+        INSIDE.before(Expected::TipModel),
+        "by ${1:sliding}",
+        "The contact estimator of the whiskers: `sliding`, `one_channel`, `polynomial`, `moment_and_shear`, `recursive` or, in a simulator, `truth`. The default is `sliding`.",
+    ),
+    entry(
+        "fitted",
+        INSIDE,
+        "fitted",
+        "After `whisker a if`: these whiskers are optional. A missing whisker never touches, and its `a.fitted` is false.",
+    ),
+    entry(
+        "list",
+        TYPE,
+        "list of ${1:8} ${2:position}",
+        "A list with at most so many elements of a type, from 1 to 16. A list is a value: `seen.with(w.tip)` is a list with a new element. A full list loses its oldest element.",
+    ),
+    entry(
+        "points",
+        INSIDE.before(Expected::Nothing),
+        "points",
+        "The number of the newest points to which the curve of a contour is fitted, from 3 to 16. More points have less noise, but the tangent follows a bend later.",
+    ),
+    entry(
+        "apart",
+        INSIDE.complete(),
+        "apart",
+        "The minimum distance between two points of a contour, from 0.1 mm to 20 mm.",
+    ),
+    entry(
+        "is",
+        INSIDE.before(Expected::Behaviour),
+        "is ${1:behaviour}",
+        "The behaviour that is the content of the state, or the content of the monitor, with the values of its arguments.",
+    ),
+    entry("within", INSIDE, "within ${1:1 s}", "The time after which the condition of a contract has to hold again."),
+    entry(
         "over",
         PROPERTY,
         "over ${1:convex-corner}",
         "The family of the scenes, with the ranges of its parameters in parentheses.",
     ),
     entry(
-        "let",
-        STATEMENT,
-        "let ${1:name} = ${2:value}",
-        "Names a value. Outside of braces it may have arguments with defaults, and is computed at every use.",
-    ),
-    entry(
         "when",
-        STATE,
+        TRANSITION,
         "when ${1:condition} -> ${2:Target}",
         "A transition that is due when the condition holds. With `for`, the condition must have held at every tick for that time.",
     ),
     entry(
         "after",
-        STATE,
+        STATE.before(Expected::Value),
         "after ${1:5 s} -> ${2:Target}",
         "A transition that is due when the state has been active for that time, at the first tick at or after its end.",
-    ),
-    entry(
-        "var",
-        ITEM_OR_STATE,
-        "var ${1:name} = ${2:value}",
-        "Memory, kept from tick to tick. It is set when the state is entered, or outside of states when a run starts, and by `set`.",
     ),
     entry(
         "entry",
@@ -283,43 +404,38 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     ),
     entry(
         "on",
-        STATE,
+        STATE.before(Expected::Connected),
         "on ${1:exit} -> ${2:Target}",
         "The target of an exit of the behaviour that the state uses. Names in parentheses are those of the exit's values. In a monitor, an event: the statements in braces are executed when a statement tells it.",
     ),
     entry(
         "tell",
-        STATEMENT,
+        STATEMENT.before(Expected::Monitor),
         "tell ${1:monitor}.${2:event}",
         "Executes the statements of an event of a monitor at once. Values in parentheses are those of its arguments.",
     ),
     entry(
         "plot",
-        STATEMENT,
+        STATEMENT.before(Expected::Nothing),
         "plot ${1:name} = ${2:value}",
         "Shows a value over time under a name: in the ticks, the picture and the tests of a run. The value is a number with any unit, a bool or a value of an enumeration. Several statements may set a plot, and the last one of a tick counts.",
     ),
     entry(
         "log",
-        STATEMENT,
+        STATEMENT.before(Expected::Nothing),
         "log \"${1:message}\", ${2:value}",
         "Logs a message with the values behind it, in every tick in which it is executed. A message shows up to eight numbers, and a vector is two.",
     ),
     entry(
         "set",
-        &[Position::Item, Position::State, Position::Test, Position::Statement],
+        SET,
         "set ${1:name} = ${2:value}",
         "Changes memory. In a test or a property, sets a parameter for the run.",
     ),
-    entry(
-        "expect",
-        &[Position::Test],
-        "expect ${1:run.completed}",
-        "A condition that must hold at the end of the run.",
-    ),
+    entry("expect", TEST, "expect ${1:run.completed}", "A condition that must hold at the end of the run."),
     entry(
         "if",
-        STATEMENT,
+        IF,
         "if ${1:condition} {\n  ${0}\n}",
         "Executes the first block whose condition holds. As a value, `if condition then a else b` chooses one of two.",
     ),
@@ -330,7 +446,7 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
         "One of two values of the same type. Both are always computed, so that filters in them miss no tick. Within another expression it stands in parentheses.",
     ),
     entry("then", INSIDE, "then ${1:a} else ${2:b}", "The values between which a condition chooses."),
-    entry("do", STATEMENT, "do ${1:law}(${2:w})", "Executes the statements of a law."),
+    entry("do", STATEMENT.before(Expected::Law), "do ${1:law}(${2:w})", "Executes the statements of a law."),
     entry(
         "record",
         STATEMENT,
@@ -339,7 +455,7 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     ),
     entry(
         "mark",
-        STATEMENT,
+        STATEMENT.before(Expected::Mark),
         "mark ${1:lost} ${2:w}",
         "Marks for the score that a whisker has lost the contour at an edge, or has found contact again. Marks change nothing that a policy can read.",
     ),
@@ -351,13 +467,13 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     ),
     entry(
         "hold",
-        COMMAND,
+        COMMAND.complete(),
         "hold",
         "Keeps the last command. After a `stop` it continues the stop, and after a `steer` it repeats the command with its velocities.",
     ),
     entry(
         "stop",
-        COMMAND,
+        COMMAND.complete(),
         "stop",
         "Stops the platform and holds its pose. The platform is commanded to stand still for ten time constants of its servos, and then a controller compensates for every displacement.",
     ),
@@ -370,48 +486,48 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     entry("for", INSIDE, "for ${1:100 ms}", "The time for which the condition must have held at every tick."),
     entry(
         "in",
-        INSIDE,
+        INSIDE.before(Expected::Nothing),
         "in ${1:low} .. ${2:high}",
         "The range of a parameter or a need. In a test, the file of the scenario. After `record`, a contour of positions.",
     ),
     entry(
         "of",
-        INSIDE,
+        INSIDE.before(Expected::Dimension),
         "of ${1:length}",
         "The dimension of a vector's components. In a contour, the number of its points.",
     ),
     entry(
         "along",
-        INSIDE,
+        ACTION,
         "along ${1:direction}",
         "The direction of the motion, a vector of any length. With a vector of length zero the platform does not translate.",
     ),
-    entry("at", INSIDE, "at ${1:speed}", "The speed of the motion."),
+    entry("at", ACTION, "at ${1:speed}", "The speed of the motion."),
     entry(
         "facing",
-        INSIDE,
+        ACTION,
         "facing ${1:angle}",
         "The heading to which the body rotates, in the shorter direction, by a controller with memory. The yaw rate is at most that of the rig's yaw controller, 45 deg/s by default.",
     ),
     entry(
         "turning",
-        INSIDE,
+        ACTION,
         "turning ${1:0 deg/s}",
         "The yaw rate of the body, counter-clockwise positive. It resets the controller of `facing`, so `turning 0 deg/s` moves straight ahead.",
     ),
-    entry("and", INSIDE, "and", "True if both sides are true. Both sides are always computed."),
-    entry("or", INSIDE, "or", "True if at least one side is true. Both sides are always computed."),
+    entry("and", OPERATOR, "and", "True if both sides are true. Both sides are always computed."),
+    entry("or", OPERATOR, "or", "True if at least one side is true. Both sides are always computed."),
     entry("->", INSIDE, "-> ${1:Target}", "The target of a transition."),
-    entry("not", TRUTH, "not", "The negation of the comparison after it: `not a < b` negates `a < b`."),
+    entry("not", NOT, "not", "The negation of the comparison after it: `not a < b` negates `a < b`."),
     entry("true", TRUTH, "true", "True."),
     entry("false", TRUTH, "false", "False."),
     entry("body", VALUE, "body", "The platform."),
     entry("time", VALUE, "time", "The time since the start of the run."),
     entry("state_time", VALUE, "state_time", "The time since the entry of the state that contains it."),
-    entry("run", &[Position::Run], "run", "The whole run, in the expectations of a test."),
+    entry("run", RUN, "run", "The whole run, in the expectations of a test."),
     entry(
         "resume",
-        TARGET,
+        TARGET.before(Expected::Resumed),
         "resume ${1:State}",
         "Enters a state by history: the inner state that was active last becomes active again, with its earlier arguments. Memory, entry, filters and times start anew.",
     ),
@@ -475,36 +591,72 @@ pub(super) const KEYWORDS: [Keyword; 81] = [
     ),
 ];
 
-/// The keyword with this text.
-pub(super) fn keyword(text: &str) -> Option<&'static Keyword> {
-    KEYWORDS.iter().find(|word| word.text == text)
+/// The dimensions whose units are the factors of all others.
+const BASES: [Dimension; 7] = [
+    Dimension::LENGTH,
+    Dimension::ANGLE,
+    Dimension::TIME,
+    Dimension::MASS,
+    Dimension::FREQUENCY,
+    Dimension::FORCE,
+    Dimension::PRESSURE,
+];
+
+/// The words by their texts. Of two with the same text, the first.
+static BY_TEXT: LazyLock<HashMap<&str, &Word>> =
+    LazyLock::new(|| WORDS.iter().rev().map(|word| (word.text, word)).collect());
+
+/// The word with this text.
+pub(super) fn word(text: &str) -> Option<&'static Word> {
+    BY_TEXT.get(text).copied()
 }
 
-/// The keywords that are allowed in a position.
-pub(super) fn keywords_at(position: Position) -> impl Iterator<Item = &'static Keyword> {
-    KEYWORDS.iter().filter(move |word| word.positions.contains(&position))
+/// The word with this text, if it is reserved, so that it cannot be a name.
+pub(super) fn reserved(text: &str) -> Option<&'static Word> {
+    word(text).filter(|word| is_keyword(word.text))
+}
+
+/// True if a text is reserved and an expression follows it.
+pub(super) fn is_before_value(text: &str) -> bool {
+    reserved(text).is_some_and(|word| word.next() == Some(Expected::Value))
+}
+
+/// The words that are allowed in a position.
+pub(super) fn words_at(position: Position) -> impl Iterator<Item = &'static Word> {
+    WORDS.iter().filter(move |word| word.is_at(position))
+}
+
+/// The words of the language by the scopes of a `TextMate` grammar, in which editors show them: keywords, types, units
+/// and functions.
+#[must_use]
+pub fn scopes() -> BTreeMap<&'static str, Vec<String>> {
+    let mut scopes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let types = PLAIN_TYPES.iter().copied().filter(|name| !is_keyword(name));
+    let types = types.chain(DIMENSIONS.iter().map(|&(name, _)| name));
+    scopes.insert("support.type.fsm", types.map(str::to_owned).collect());
+    scopes.insert("keyword.other.unit.fsm", BASES.into_iter().flat_map(units_of).collect());
+    scopes.insert("support.function.fsm", FUNCTIONS.iter().map(|&(name, ..)| name.to_owned()).collect());
+    for word in WORDS.iter().filter(|&entry| reserved(entry.text) == Some(entry)) {
+        let scope = match word.class.role {
+            Role::Declaration => "storage.type.fsm",
+            Role::Control => "keyword.control.fsm",
+            Role::Action => "keyword.other.fsm",
+            Role::Operator => "keyword.operator.logical.fsm",
+            Role::Constant => "constant.language.fsm",
+            Role::Variable => "variable.language.fsm",
+        };
+        scopes.entry(scope).or_default().push(word.text.to_owned());
+    }
+    scopes
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grammar::is_keyword;
-
-    #[test]
-    fn every_word_of_the_grammar_is_explained() {
-        let grammar = include_str!("../../grammar/fsm.pest");
-        let rules = grammar.lines().filter(|line| line.starts_with("kw_"));
-        let keywords: Vec<&str> = rules.filter_map(|line| line.split('"').nth(1)).collect();
-        assert!(keywords.len() >= 30);
-        for keyword in keywords {
-            assert!(super::keyword(keyword).is_some_and(|word| !word.meaning.is_empty()), "{keyword}");
-            assert!(is_keyword(keyword), "{keyword}");
-        }
-    }
 
     #[test]
     fn the_usage_of_a_word_is_its_snippet_in_plain_text() {
-        let usage = |text| keyword(text).map(Keyword::usage);
+        let usage = |text| word(text).map(Word::usage);
         assert_eq!(usage("do").as_deref(), Some("do law(w)"));
         assert_eq!(usage("hold").as_deref(), Some("hold"));
         assert_eq!(usage("if").as_deref(), Some("if condition {\n  \u{2026}\n}"));
