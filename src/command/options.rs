@@ -106,7 +106,7 @@ pub(super) struct WorldOptions {
 impl WorldOptions {
     /// The options as text, for the header of results.
     pub(super) fn text(&self) -> String {
-        let world = self.world.world.map(|world| world.name());
+        let world = self.world.world.map(WorldKind::name);
         let pruned = if self.prune.no_prune { ", not pruned" } else { "" };
         format!("{}{pruned}", world.unwrap_or("of the scene"))
     }

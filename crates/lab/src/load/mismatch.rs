@@ -32,6 +32,9 @@ pub struct GivenMismatch {
 
 impl GivenMismatch {
     /// Reads the file at `path`, which can also be the name of a built-in mismatch. `seed` replaces the seeds of files and scenarios.
+    ///
+    /// # Errors
+    /// [`LoadError`] if a file cannot be read or its text has errors.
     pub fn read(path: Option<&Path>, seed: Option<u64>, files: &mut CommandFiles) -> Result<Self, LoadError> {
         Ok(Self::new(path.map(|path| mismatch(path, files)).transpose()?, seed))
     }
@@ -52,6 +55,9 @@ impl GivenMismatch {
     }
 
     /// The same, with the built-in plausible array if no file is given.
+    ///
+    /// # Errors
+    /// [`LoadError`] if a file cannot be read or its text has errors.
     pub fn or_plausible(self) -> Result<Self, LoadError> {
         let built_in = || mismatch_in(Source::new(PLAUSIBLE_MISMATCH.path, PLAUSIBLE_MISMATCH.text));
         Ok(Self { file: Some(self.file.map_or_else(built_in, Ok)?), ..self })

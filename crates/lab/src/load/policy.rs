@@ -26,6 +26,9 @@ pub enum PolicyFile {
 
 /// Reads the text of a policy or a compiled machine. The path can also be the name of a built-in policy. A machine is recognised by its first bytes or by its name. The
 /// hash is that of the file alone.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn policy_file(path: &Path, files: &mut CommandFiles) -> Result<Loaded<PolicyFile>, LoadError> {
     let bytes = Sought::Policy.bytes(path, ARTIFACT_LIMIT, files)?;
     let hash = Sha256::new().chain_update(&bytes);
@@ -48,6 +51,9 @@ fn library(path: &Path, files: &mut CommandFiles) -> Result<String, String> {
 }
 
 /// The text of a file that a policy uses, for an editor, which writes no file.
+///
+/// # Errors
+/// The reason for which the file cannot be read.
 pub fn library_for_editor(path: &str) -> Result<String, String> {
     let path = Path::new(path);
     vibrissa_text::file::read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(|cause| reason(path, &cause))
@@ -74,6 +80,9 @@ pub struct PolicyText {
 }
 
 /// Reads the text of a policy and compiles it, or reads a compiled machine.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
     let policy = tested_policy(path, files)?;
     match &policy.value.text {
@@ -83,6 +92,9 @@ pub fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, L
 }
 
 /// Reads a policy, or the machine of a test file with the tests of that file.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
     let Loaded { value, hash } = policy_file(path, files)?;
     match value {
@@ -93,6 +105,9 @@ pub fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Pol
 
 /// The policy for the scene that was read from `source`: the requested one, else the one that the scene names, with its
 /// parameters, else the built-in one.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn policy_for(
     asked: Option<&Path>,
     scene: &Scene,
@@ -117,12 +132,16 @@ pub fn policy_for(
 }
 
 /// The built-in policy with the name that a built-in scenario gives, or else the default one.
+#[must_use]
 pub fn named_by_built_in(scene: &Scene) -> &'static TextFile {
     let named = scene.policy.as_ref().and_then(|policy| TextFile::named(POLICIES, Path::new(&policy.file.name)));
     named.unwrap_or(&DEFAULT_POLICY)
 }
 
 /// Reads a policy without its warnings, which take most of the time of a compilation.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>, LoadError> {
     let Loaded { value, hash } = policy_file(path, files)?;
     let source = match value {
@@ -137,12 +156,18 @@ pub fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>,
 }
 
 /// A built-in policy. It uses only the standard library.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadError> {
     let source = Source::new(file.path, file.text);
     compiled(&source, &mut |_| Err("it is not built into the program".to_owned()))
 }
 
 /// The policy of a text that has been read, with the files that it uses.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn policy_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
     compiled(source, &mut |path| library(Path::new(path), files))
 }
@@ -160,6 +185,9 @@ fn compiled(source: &Source, library: &mut Library<'_>) -> Result<Loaded<Policy>
 }
 
 /// Reads the text of a policy. A compiled machine is an error.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
     match policy_file(path, files)?.value {
         PolicyFile::Text(source) => Ok(source),
@@ -170,6 +198,9 @@ pub fn policy_text(path: &Path, files: &mut CommandFiles) -> Result<Source, Load
 }
 
 /// Reads a policy as a statechart.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn chart(path: &Path, files: &mut CommandFiles) -> Result<Chart, LoadError> {
     let source = with_libraries(&policy_text(path, files)?, files);
     vibrissa_language::chart(&source).map_err(|faults| LoadError::Faults { source_text: Box::new(source), faults })

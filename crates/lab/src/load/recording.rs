@@ -10,6 +10,9 @@ use super::LoadError;
 use vibrissa_text::file::CommandFiles;
 
 /// Opens the files of a recorded run.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn recording(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Recording<BufReader<File>>, LoadError> {
     let mut part = |path: &PathBuf| {
         let file = files.open(path).map_err(LoadError::read(path))?;

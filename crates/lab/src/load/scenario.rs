@@ -18,11 +18,17 @@ use vibrissa_world::scenario;
 use vibrissa_world::scene::Scene;
 
 /// Reads a scenario with the files that it refers to. The hash is that of all of them.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn scenario(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
     scenario_in(&scenario_text(path, files)?, files)
 }
 
 /// Reads the text of a scenario. The path can also be the name of a built-in one, such as `disk`.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn scenario_text(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
     let name = name(path)?;
     let bytes = Sought::Scenario.bytes(path, SIZE_LIMIT, files)?;
@@ -30,11 +36,17 @@ pub fn scenario_text(path: &Path, files: &mut CommandFiles) -> Result<Source, Lo
 }
 
 /// The scenario of a text that has been read, with the files that it refers to.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn scenario_in(source: &Source, files: &mut CommandFiles) -> Result<Loaded<Scene>, LoadError> {
     read_scenario(source, |name| outline_file(&beside(Path::new(&source.name), name), files))
 }
 
 /// The bytes of a file that a scenario names.
+///
+/// # Errors
+/// The reason for which the file cannot be read.
 pub fn outline_file(path: &Path, files: &mut CommandFiles) -> Result<Vec<u8>, String> {
     files.read(path, outline::SIZE_LIMIT).map_err(|cause| reason(path, &cause))
 }
@@ -45,12 +57,18 @@ pub fn beside(path: &Path, name: impl AsRef<Path>) -> PathBuf {
 }
 
 /// The rig of a text that has a rig alone, with the calibrations that it refers to.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn rig_in(source: &Source, files: &mut CommandFiles) -> Result<Rig, LoadError> {
     scenario::read_rig(source, &mut |name| outline_file(&beside(Path::new(&source.name), name), files))
         .map_err(|faults| LoadError::Faults { source_text: Box::new(source.clone()), faults })
 }
 
 /// A built-in scenario.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn built_in_scenario(file: &TextFile) -> Result<Loaded<Scene>, LoadError> {
     read_scenario(&Source::new(file.path, file.text), |_| Err("it is not built into the program".to_owned()))
 }
@@ -73,16 +91,25 @@ fn read_scenario(
 }
 
 /// Reads measured contacts with base angles.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn contact_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<ContactSet>, LoadError> {
     sets(path, files, read_sets)
 }
 
 /// Reads measured contacts with counts of the sensor.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn count_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<CountSet>, LoadError> {
     sets(path, files, read_count_sets)
 }
 
 /// Reads measured touches of a known object, each with the name of its whisker.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn touches(path: &Path, files: &mut CommandFiles) -> Result<Vec<(String, TouchReading)>, LoadError> {
     sets(path, files, read_touches)
 }

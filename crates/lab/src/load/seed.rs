@@ -30,6 +30,9 @@ pub enum WithoutEffect {
 }
 
 /// Checks that a seed of the noise, if one is given, changes a run of one of the scenes.
+///
+/// # Errors
+/// [`WithoutEffect`] if nothing has noise.
 pub fn check_noise_seed<'s>(
     seed: Option<u64>,
     mut scenes: impl Iterator<Item = &'s Scene>,

@@ -18,6 +18,9 @@ pub(super) fn name(path: &Path) -> Result<String, LoadError> {
 }
 
 /// Reads a text.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn read(path: &Path, files: &mut CommandFiles) -> Result<Source, LoadError> {
     let name = name(path)?;
     let text = files.read(path, SIZE_LIMIT).and_then(|bytes| text(&bytes)).map_err(LoadError::read(path))?;
@@ -36,6 +39,9 @@ pub(super) fn text(bytes: &[u8]) -> Result<String, Error> {
 }
 
 /// Reads standard input.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn read_standard(files: &mut CommandFiles) -> Result<Source, LoadError> {
     let name = "standard input";
     let text =

@@ -14,16 +14,19 @@ impl Case {
     }
 
     /// The parameters with their values (SI).
+    #[must_use]
     pub fn values(&self) -> &[(&'static Parameter, f64)] {
         &self.0
     }
 
     /// The values for the family.
+    #[must_use]
     pub fn given(&self) -> Values {
         self.0.iter().map(|&(parameter, value)| (parameter.name, value)).collect()
     }
 
     /// The values that differ from those of the simplest scene in these ranges.
+    #[must_use]
     pub fn notable(&self, ranges: &[ParameterRange]) -> String {
         let is_notable = |&(parameter, value): &(&Parameter, f64)| {
             let range = ranges.iter().find(|range| range.parameter.name == parameter.name);

@@ -101,6 +101,7 @@ impl Regressions {
     }
 
     /// The file.
+    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -65,6 +65,9 @@ struct GuardsMessage {
 impl Channels {
     /// Opens the channels of a run of `rig` and logs what does not change. `surfaces` are the outlines of the objects, if they are
     /// known. `trace` is a trace of the run without ticks.
+    ///
+    /// # Errors
+    /// [`RecordError`] if the file cannot be written.
     pub fn new(
         context: Arc<Context>,
         (rig, scenario): (&Rig, &str),
@@ -109,6 +112,9 @@ impl Channels {
     }
 
     /// Logs a tick, with the transitions that it has taken and the guards that it has tried last, if the policy has a text.
+    ///
+    /// # Errors
+    /// [`RecordError`] if the file cannot be written.
     pub fn frame(
         &mut self,
         frame: RecordedFrame,

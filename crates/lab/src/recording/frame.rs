@@ -21,6 +21,7 @@ pub struct RecordedFrame {
 
 impl RecordedFrame {
     /// The last tick of a trace. `None` if it has none.
+    #[must_use]
     pub fn last(trace: &Trace, samples: Vec<Sample>) -> Option<Self> {
         let index = trace.ticks.len().checked_sub(1)?;
         let plots = trace.plots.iter().enumerate().filter_map(|(plot, record)| {

@@ -10,6 +10,7 @@ const SHAFT_POINTS: u32 = 9;
 
 /// The points of a bent shaft (body frame) with a base angle (rad) and a tip. Its shape is the cubic curve from the base to the tip: it
 /// begins in the direction of the base, and is not bent at its end, as a uniform shaft under a small force at its tip.
+#[must_use]
 pub fn shaft_points(whisker: &Whisker, base_angle: f64, tip_body: Point2) -> Vec<Point2> {
     let base = whisker.base_body;
     let start = unit(whisker.direction_body + base_angle);

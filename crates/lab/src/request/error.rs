@@ -43,6 +43,7 @@ pub enum RequestFault {
 
 impl RequestError {
     /// The cause.
+    #[must_use]
     pub fn into_fault(self) -> RequestFault {
         self.0
     }

@@ -119,6 +119,9 @@ impl TrialRequest {
 
     /// The trial under a mismatch that has been read, and its policy. Its array is not yet calibrated. `compiled` receives the
     /// policy before its parameters are set.
+    ///
+    /// # Errors
+    /// [`RequestError`] if a file, an option or the calibration is refused.
     pub fn prepare_in(
         &self,
         mismatch: &GivenMismatch,

@@ -270,6 +270,7 @@ pub fn policy_label(program: &Program) -> String {
 }
 
 /// The name of a policy, or of its file, with a mark if it used true tips.
+#[must_use]
 pub fn marked(policy: &str, true_tips: bool) -> String {
     if true_tips { format!("{policy} (true tips)") } else { policy.to_owned() }
 }

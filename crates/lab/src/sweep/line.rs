@@ -119,6 +119,7 @@ pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
 }
 
 /// The calibration of a run, read from its line.
+#[must_use]
 pub fn read_calibration(line: &str) -> Option<CalibrationIdentity> {
     #[derive(Deserialize)]
     struct Calibrated {

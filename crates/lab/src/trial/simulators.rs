@@ -37,10 +37,13 @@ pub(super) struct Surroundings<'s> {
     pub(super) start: Pose,
 }
 
+/// Builds a world, pruned or whole, with a seed.
+type Build = fn(&Surroundings<'_>, bool, u64) -> Result<Box<dyn World>, SimulatorError>;
+
 /// A simulator.
 pub(super) struct Simulator {
     /// Builds a world, pruned or whole. The seed fixes the noise of sensors and poses.
-    pub(super) build: fn(&Surroundings<'_>, bool, u64) -> Result<Box<dyn World>, SimulatorError>,
+    pub(super) build: Build,
     /// Checks that the build has it and that its library can be loaded.
     pub(super) check: fn() -> Result<(), SimulatorError>,
     /// The version of its library. `None` for a simulator that is a part of this program.

@@ -112,6 +112,7 @@ impl Axis {
     }
 
     /// The range as text.
+    #[must_use]
     pub fn range(&self) -> String {
         let [low, high] = [self.low, self.high].map(|end| format_si(end, self.dimension));
         format!("{low} .. {high}")

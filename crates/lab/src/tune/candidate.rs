@@ -16,6 +16,7 @@ pub struct Candidate {
 
 impl Candidate {
     /// The candidate at a point of the unit box.
+    #[must_use]
     pub fn at(axes: &[Axis], point: &[f64]) -> Self {
         let value = |(axis, &coordinate): (&Axis, &f64)| {
             let (text, value) = axis.value(coordinate);
@@ -34,11 +35,13 @@ impl Candidate {
     }
 
     /// The point of the unit box.
+    #[must_use]
     pub fn point(&self, axes: &[Axis]) -> Vec<f64> {
         axes.iter().zip(&self.values).map(|(axis, (.., value))| axis.coordinate(*value)).collect()
     }
 
     /// The values as texts, by name.
+    #[must_use]
     pub fn settings(&self) -> BTreeMap<String, String> {
         self.values.iter().map(|(name, text, _)| (name.clone(), text.clone())).collect()
     }

@@ -24,6 +24,7 @@ impl Document for TuningHeader {
 
 impl TuningHeader {
     /// A description of the difference of these inputs from `other`, if there is one.
+    #[must_use]
     pub fn difference(&self, other: &Self) -> Option<String> {
         let mut names = self.inputs.keys().chain(other.inputs.keys());
         let name = names.find(|name| self.inputs.get(*name) != other.inputs.get(*name))?;
@@ -81,6 +82,7 @@ impl TunedRun {
 
 impl TuningLine {
     /// The line of a run.
+    #[must_use]
     pub fn new(candidate: &Candidate, scene: &TuningScene, run: TunedRun) -> Self {
         Self { scene: scene.name.clone(), settings: candidate.settings(), run }
     }

@@ -84,6 +84,7 @@ impl fmt::Display for Objective {
 
 impl Objective {
     /// The objective of these terms, or the default one if there are none.
+    #[must_use]
     pub fn new(terms: &[Term]) -> Self {
         if terms.is_empty() { Self::default() } else { Self { terms: terms.to_vec() } }
     }

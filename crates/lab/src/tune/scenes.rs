@@ -42,6 +42,7 @@ pub enum CandidateError {
 
 impl TuningScene {
     /// The scene of a scenario.
+    #[must_use]
     pub fn scenario(scenario: Loaded<Scene>) -> Self {
         let Loaded { value: scene, hash } = scenario;
         Self { name: scene.name.clone(), of: SceneOf::Scenario(Box::new(scene)), hash: short_hash(&hash.finalize()) }
@@ -58,6 +59,7 @@ impl TuningScene {
     }
 
     /// Number of the scene in its family, 0 for a scenario.
+    #[must_use]
     pub fn number(&self) -> u64 {
         match &self.of {
             SceneOf::Scenario(_) => 0,
@@ -66,6 +68,7 @@ impl TuningScene {
     }
 
     /// The scene of a scenario.
+    #[must_use]
     pub fn of_scenario(&self) -> Option<&Scene> {
         match &self.of {
             SceneOf::Scenario(scene) => Some(scene),

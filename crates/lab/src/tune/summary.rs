@@ -79,6 +79,7 @@ pub struct TunedFigures {
 
 impl TunedFigures {
     /// The figures over some runs.
+    #[must_use]
     pub fn new(runs: &[TunedRun]) -> Self {
         let passed = || runs.iter().filter(|run| run.passed);
         Self {

@@ -14,6 +14,7 @@ mod document;
 mod navigation;
 mod position;
 mod queue;
+#[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod server;
 mod transport;
 mod uri;

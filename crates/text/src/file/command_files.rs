@@ -42,6 +42,12 @@ enum OutputKind {
 #[error("this command writes to the same file: {0}; give one of them another path")]
 struct IsOutput(String);
 
+impl Default for CommandFiles {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl CommandFiles {
     /// The files of a command that has not begun.
     #[must_use]

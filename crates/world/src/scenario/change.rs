@@ -18,11 +18,13 @@ pub struct Change {
 impl Change {
     /// Creates a change of the key or item at the end of `path` to `value`. The path consists of keys separated by points,
     /// and of numbers of list items in brackets: `objects[0].circle.radius`.
+    #[must_use]
     pub fn new(path: Placed<String>, value: Placed<Node>) -> Self {
         Self { path, value }
     }
 
     /// The value in canonical notation.
+    #[must_use]
     pub fn text(&self) -> String {
         flow(&self.value.value)
     }
@@ -137,6 +139,9 @@ fn item<'n>(node: &'n mut Node, number: &str) -> Result<&'n mut Placed<Node>, As
 }
 
 /// Reads the scenario `source` with the changes of a `sweep`. The source of the diagnostics contains both texts.
+///
+/// # Errors
+/// The text with the change, and all errors in it.
 pub fn read(
     source: &Source,
     sweep: &Source,
@@ -176,6 +181,7 @@ fn flow(node: &Node) -> String {
 }
 
 /// Returns a text in quotes, if YAML would not read it as one word.
+#[must_use]
 pub fn quoted(text: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || " ._-+/^%".contains(letter);
     if text.chars().all(is_plain) { text.to_owned() } else { format!("{text:?}") }

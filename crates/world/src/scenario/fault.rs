@@ -62,6 +62,9 @@ const MAX_BYTES: usize = 1 << 20;
 
 /// Parses a text into its tree. `what` describes the text in messages. If a key occurs twice, the tree contains its
 /// first value, and the result includes the diagnostic.
+///
+/// # Errors
+/// All errors, in the order of the text.
 pub fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Diagnostic>), Vec<Diagnostic>> {
     if source.text.len() > MAX_BYTES {
         let message = format!("the {what} is larger than 1 MiB");

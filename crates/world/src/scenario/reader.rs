@@ -72,6 +72,9 @@ impl<'s> Reader<'s> {
     }
 
     /// Returns the result, or the diagnostics in the order of the text.
+    ///
+    /// # Errors
+    /// All errors, in the order of the text.
     pub fn finish<T>(mut self, read: Option<T>) -> Result<T, Vec<Diagnostic>> {
         self.faults.sort_by_key(|fault| fault.primary.span.start);
         read.filter(|_| self.faults.is_empty()).ok_or(self.faults)
@@ -225,6 +228,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The span of a complete value. For a list or a mapping, it ends at its end or at the end of its first line.
+    #[must_use]
     pub fn extent(&self, node: &Placed<Node>) -> Span {
         let last = match &node.value {
             Node::List(items) => items.last(),

@@ -54,6 +54,7 @@ impl Part {
 
     /// True if a line separates the part from the convex hull of these points (m, world frame) by more than `reach`
     /// (m).
+    #[must_use]
     pub fn is_farther_than(&self, points: &[Point2], reach: f64) -> bool {
         let beyond =
             |place: &Point2, outwards: Vector2| points.iter().all(|point| (point - place).dot(&outwards) > reach);
@@ -71,6 +72,7 @@ impl Part {
     }
 
     /// The bounding box, by its corners with the smallest and the largest coordinates (m, world frame).
+    #[must_use]
     pub fn bounds(&self) -> (Point2, Point2) {
         match self {
             Self::Cylinder { centre, radius } => {

@@ -15,6 +15,7 @@ pub struct Posture {
 }
 
 /// A point of the plane at a height (m) above it.
+#[must_use]
 pub fn raised(point: Point2, height: f64) -> Point3<f64> {
     Point3::new(point.x, point.y, height)
 }

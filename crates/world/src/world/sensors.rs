@@ -21,6 +21,7 @@ pub struct Sensors {
 
 impl Sensors {
     /// Creates the sensors. `seed` determines their noise.
+    #[must_use]
     pub fn new(sensing: &Sensing, seed: u64) -> Self {
         Self {
             noise: normal(sensing.angle_noise),
@@ -58,6 +59,7 @@ pub(super) fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 
 }
 
 /// Rounds to a positive count. Scenes are validated so that the value is nearly an integer.
+#[must_use]
 pub fn whole(value: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a validated small count")]
     let count = value.round().max(1.0) as usize;
