@@ -74,6 +74,18 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    #[test]
+    fn a_part_of_a_policy_has_the_layout_that_it_has_in_the_whole() {
+        for part in [
+            "always w.touching within -1 s",
+            "always f(1 s) within -t",
+            "always a.b or 2 mm within 2 - t",
+            "if a then |b| else -c",
+        ] {
+            assert_eq!(on_one_line(&part.replace(' ', "\n ")), part);
+        }
+    }
+
     proptest! {
         #[test]
         fn any_text_has_a_layout(text in "(\\PC|\n|\t| |[-a-z0-9:{}()|\"#*/.,<>=]){0,200}", starts in any::<[u8; 8]>()) {
