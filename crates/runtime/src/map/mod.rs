@@ -1,0 +1,16 @@
+//! A map by touch: which places are proved free, which are surface, and which are unknown.
+//!
+//! Objects are taken as static, and poses as known up to a bound. `docs/map.md` of the repository derives the margins.
+
+mod bits;
+mod cells;
+mod grid;
+mod margins;
+mod polygon;
+mod settings;
+mod shaft_sweep;
+mod touch_map;
+
+pub use cells::Cell;
+pub use settings::{MapError, MapSettings};
+pub use touch_map::Map;

@@ -1,0 +1,218 @@
+//! The map of a run.
+
+use crate::geometry::{Point2, Pose, perpendicular};
+use crate::math;
+use crate::percept::Perception;
+use crate::rig::Rig;
+use crate::signal::{Command, MAX_WHISKERS};
+
+use super::cells::{Cell, Cells};
+use super::grid::Grid;
+use super::settings::{MapError, MapSettings};
+use super::shaft_sweep::{Bounds, ShaftSweep};
+
+/// A map by touch. Memory is allocated when it is created, and a tick does a bounded amount of work.
+#[derive(Debug, Clone)]
+pub struct Map {
+    settings: MapSettings,
+    cells: Cells,
+    /// True once the square has been laid about the first known pose.
+    is_placed: bool,
+    /// Corners of the body (m, body frame).
+    outline_body: [Point2; 4],
+    whiskers: Vec<MappedWhisker>,
+    /// Poses of the newest ticks, the newest first. Unknown after a gap.
+    poses: [Pose; MOST_WAITING + 1],
+    /// Number of ticks for which a straight shaft waits.
+    waiting: usize,
+    /// Largest motion (m) of a point of the array in a tick.
+    jump: f64,
+}
+
+/// What the map keeps of a whisker.
+#[derive(Debug, Clone)]
+struct MappedWhisker {
+    /// Index in the policy.
+    index: usize,
+    sweep: ShaftSweep,
+    /// Number of successive ticks, up to now, in which every reading was straight.
+    straight_for: usize,
+}
+
+/// Standard deviations of a reading within which a whisker reads straight. Of twenty successive readings at this bound,
+/// half are beyond it, so a whisker that is bent by more is noticed.
+const STRAIGHT: f64 = 10.0;
+/// Standard deviation (rad) of effects outside of the model, such as vibrations of a free whisker. It limits the certainty of
+/// a sensor without noise.
+const MODEL_DEVIATION: f64 = 3e-7;
+/// Bound (rad) of the offset that perception leaves in a reading.
+const OFFSET_BOUND: f64 = 5e-7;
+/// Standard deviations of the measured errors of poses that count as their bound.
+const POSE_DEVIATIONS: f64 = 3.0;
+/// Most ticks for which a straight shaft waits.
+const MOST_WAITING: usize = 7;
+/// Factor of the limits of the platform beyond which a motion in a tick is a jump of the measured pose.
+const JUMP: f64 = 1.5;
+/// Distance (m) ahead of a body that is stopped which must not be entered.
+const BLOCKED_AHEAD: f64 = 6e-3;
+
+impl Map {
+    /// Creates the map of `rig` with its whiskers of these indices, in the order of a policy. `None` is a whisker that the
+    /// rig lacks.
+    ///
+    /// # Errors
+    /// [`MapError`] if the settings give no map.
+    ///
+    /// # Panics
+    /// If the rig has no whisker with such an index.
+    pub fn new(rig: &Rig, whiskers: &[Option<usize>], settings: MapSettings) -> Result<Self, MapError> {
+        settings.check()?;
+        let fitted =
+            whiskers.iter().enumerate().filter_map(|(index, at)| at.map(|at| (index, rig.whiskers[at].perceived())));
+        let whiskers: Vec<_> = fitted
+            .take(MAX_WHISKERS)
+            .map(|(index, whisker)| MappedWhisker { index, sweep: ShaftSweep::new(&whisker), straight_for: 0 })
+            .collect();
+        let period = rig.sensing.control_rate.recip();
+        // A base angle follows its moment after the delay of the hinge, and is read at the next sample.
+        let delay =
+            rig.whiskers.iter().map(|whisker| whisker.hinge.damping / whisker.hinge.stiffness).fold(0.0, math::max);
+        let wait = delay + rig.sensing.sample_rate.recip();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let waiting = ((wait / period).ceil() as usize).clamp(1, MOST_WAITING);
+        let reach = rig
+            .whiskers
+            .iter()
+            .map(|whisker| whisker.base_body.coords.norm() + whisker.shaft.length)
+            .fold(0.0, math::max);
+        let platform = &rig.platform;
+        Ok(Self {
+            settings,
+            cells: Cells::new(Grid::new(settings.extent, settings.cell)),
+            is_placed: false,
+            outline_body: platform.outline_body(),
+            whiskers,
+            poses: [Pose::UNKNOWN; MOST_WAITING + 1],
+            waiting,
+            jump: JUMP * period * (platform.speed_limit + platform.yaw_rate_limit * reach),
+        })
+    }
+
+    /// Continues the map with a tick of `perception`. `pose` is that of the body at the newest sample, usually
+    /// [`Perception::pose`], and `command` is the one under which the body has moved since the last tick.
+    pub fn update(&mut self, perception: &Perception, pose: Pose, command: Command) {
+        let is_known = pose.is_finite() && perception.has_measured_pose();
+        self.poses.rotate_right(1);
+        self.poses[0] = if is_known { pose } else { Pose::UNKNOWN };
+        if !is_known {
+            for whisker in &mut self.whiskers {
+                whisker.straight_for = 0;
+                whisker.sweep.interrupt();
+            }
+            return;
+        }
+        if !self.is_placed {
+            self.cells.grid = self.cells.grid.about(pose.position);
+            self.is_placed = true;
+        }
+        let (position, heading) = perception.pose_deviation();
+        let position = self.settings.position_bound + POSE_DEVIATIONS * position;
+        let heading = self.settings.heading_bound + POSE_DEVIATIONS * heading;
+        self.claim_body(pose, position, heading);
+        self.claim_shafts(perception, position, heading);
+        if perception.is_blocked() {
+            self.block_ahead(pose, command);
+        }
+    }
+
+    /// Makes the cells free that the body covers, in spite of these bounds of the error of its pose (m, rad).
+    fn claim_body(&mut self, pose: Pose, position: f64, heading: f64) {
+        let reach = self.outline_body.iter().map(|corner| corner.coords.norm()).fold(0.0, math::max);
+        let Some(outline) = shrunk(&self.outline_body, position + heading * reach) else { return };
+        self.cells.free_convex(outline.map(|corner| pose.point_to_world(corner)));
+    }
+
+    /// Makes the cells free that straight shafts have swept.
+    fn claim_shafts(&mut self, perception: &Perception, position: f64, heading: f64) {
+        // The shafts were straight here, and have been since.
+        let settled = self.poses[self.waiting];
+        for whisker in &mut self.whiskers {
+            let straight = STRAIGHT * math::hypot(perception.reading_deviation(whisker.index), MODEL_DEVIATION);
+            let is_straight = perception.largest_reading(whisker.index).is_some_and(|largest| largest < straight);
+            whisker.straight_for = if is_straight { whisker.straight_for.saturating_add(1) } else { 0 };
+            if !is_straight {
+                whisker.sweep.interrupt();
+            } else if whisker.straight_for > self.waiting && settled.is_finite() {
+                let bounds = Bounds { base_angle: straight + OFFSET_BOUND, position, heading, jump: self.jump };
+                whisker.sweep.take(settled, &bounds, |quad| self.cells.free_quad(quad));
+            }
+        }
+    }
+
+    /// Marks the strip ahead of a body at `pose` that does not move as commanded.
+    fn block_ahead(&mut self, pose: Pose, command: Command) {
+        let speed_of = |corner: &Point2| {
+            let arm = pose.vector_to_world(corner.coords);
+            (command.velocity_world + command.yaw_rate * perpendicular(arm)).norm()
+        };
+        let fastest = self.outline_body.iter().map(speed_of).fold(0.0, math::max);
+        if fastest == 0.0 || !command.is_finite() {
+            return;
+        }
+        let time = BLOCKED_AHEAD / fastest;
+        let ahead = Pose {
+            position: pose.position + time * command.velocity_world,
+            heading: pose.heading + time * command.yaw_rate,
+        };
+        // The body covers its own place, so only the strip ahead is not free.
+        self.cells.block_convex(self.outline_body.map(|corner| ahead.point_to_world(corner)));
+    }
+
+    /// True if a point (m, world frame) is proved free.
+    #[must_use]
+    pub fn is_free(&self, point: Point2) -> bool {
+        self.at(point) == Cell::Free
+    }
+
+    /// What is known of a point (m, world frame).
+    #[must_use]
+    pub fn at(&self, point: Point2) -> Cell {
+        if self.is_placed { self.cells.at(point) } else { Cell::Unknown }
+    }
+
+    /// The centres (m, world frame) of the cells that are proved free, row by row.
+    pub fn free_cells(&self) -> impl Iterator<Item = Point2> + '_ {
+        self.cells.free.set().map(|(column, row)| self.cells.grid.centre(column, row))
+    }
+
+    /// Area (m²) that is proved free.
+    #[must_use]
+    pub fn free_area(&self) -> f64 {
+        self.cells.free_area()
+    }
+}
+
+/// A convex polygon without the points that are nearer to its edges than a distance (m). `None` if nothing is left. Its
+/// corners are counter-clockwise.
+fn shrunk(outline: &[Point2; 4], by: f64) -> Option<[Point2; 4]> {
+    if by == 0.0 {
+        return Some(*outline);
+    }
+    // Every edge is moved inwards, and successive ones are intersected.
+    let edge = |index: usize| {
+        let (a, b) = (outline[index % 4], outline[(index + 1) % 4]);
+        let along = (b - a).try_normalize(0.0).unwrap_or_default();
+        (a + by * perpendicular(along), along)
+    };
+    let corner = |index: usize| {
+        let ((a, before), (b, after)) = (edge(index + 3), edge(index));
+        let turn = before.perp(&after);
+        a + before * ((b - a).perp(&after) / turn)
+    };
+    let inner: [Point2; 4] = std::array::from_fn(corner);
+    let keeps_its_order = (0..4).all(|index| {
+        let along = outline[(index + 1) % 4] - outline[index];
+        (inner[(index + 1) % 4] - inner[index]).dot(&along) > 0.0
+    });
+    keeps_its_order.then_some(inner)
+}
