@@ -70,6 +70,17 @@ impl Bits {
         new
     }
 
+    /// True if the whole span is in the square and all its bits are set.
+    pub(super) fn are_set(&self, row: i32, from: i32, to: i32) -> bool {
+        self.contains(row, from, to) && self.span(row, from, to).all(|(index, mask)| !self.words[index] & mask == 0)
+    }
+
+    /// True if the whole span is in the square.
+    pub(super) fn contains(&self, row: i32, from: i32, to: i32) -> bool {
+        let is_inside = |at: i32| usize::try_from(at).is_ok_and(|at| at < self.side());
+        is_inside(row) && is_inside(from) && is_inside(to)
+    }
+
     /// The columns and rows of the set bits, row by row.
     pub(super) fn set(&self) -> impl Iterator<Item = (i32, i32)> + '_ {
         let words = self.words.iter().enumerate().filter(|(_, word)| **word != 0);
@@ -110,8 +121,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn spans_set_the_bits_that_single_cells_have(
+        fn spans_set_and_test_the_bits_that_single_cells_have(
             spans in prop::collection::vec((-5..200_i32, -70..300_i32, -70..300_i32), 0..12),
+            asked in (-5..200_i32, -10..200_i32, -10..200_i32),
         ) {
             let mut bits = Bits::new(192);
             let mut expected = vec![vec![false; 192]; 192];
@@ -132,6 +144,10 @@ mod tests {
                 for column in -2..194 {
                     prop_assert_eq!(bits.get(column, row), at(column, row));
                 }
+            }
+            let (row, from, to) = asked;
+            if from <= to {
+                prop_assert_eq!(bits.are_set(row, from, to), (from..=to).all(|column| at(column, row)));
             }
             let set = expected.iter().flatten().filter(|is_set| **is_set).count();
             prop_assert_eq!(usize::try_from(count).ok(), Some(set));

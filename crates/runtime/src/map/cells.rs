@@ -17,6 +17,9 @@ pub enum Cell {
     Blocked,
 }
 
+/// Most cells around a point that are looked at.
+const MOST_REACH: f64 = 64.0;
+
 /// The cells of a map. A cell that has been proved free remains free.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
@@ -47,6 +50,14 @@ impl Cells {
         } else {
             Cell::Unknown
         }
+    }
+
+    /// True if all cells within `distance` (m) of a point (m, world frame) are free, and at least its neighbours.
+    #[expect(clippy::cast_possible_truncation, reason = "limited")]
+    pub(super) fn is_inside_free(&self, point: Point2, distance: f64) -> bool {
+        let Some((column, row)) = self.grid.cell_at(point) else { return false };
+        let reach = (distance / self.grid.cell).ceil().clamp(1.0, MOST_REACH) as i32;
+        (row - reach..=row + reach).all(|row| self.free.are_set(row, column - reach, column + reach))
     }
 
     /// Area (m²) of the free cells.

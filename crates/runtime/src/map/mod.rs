@@ -4,6 +4,8 @@
 
 mod bits;
 mod cells;
+mod contour_ends;
+mod contours;
 mod grid;
 mod margins;
 mod polygon;
@@ -12,5 +14,7 @@ mod shaft_sweep;
 mod touch_map;
 
 pub use cells::Cell;
+pub use contour_ends::{ContourEnd, EndKind};
+pub use contours::ContourPoint;
 pub use settings::{MapError, MapSettings};
 pub use touch_map::Map;

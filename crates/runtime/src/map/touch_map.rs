@@ -1,12 +1,15 @@
 //! The map of a run.
 
-use crate::geometry::{Point2, Pose, perpendicular};
+use crate::geometry::{Point2, Pose, Vector2, perpendicular};
+use crate::machine::{Senses, WhiskerVector};
 use crate::math;
 use crate::percept::Perception;
 use crate::rig::Rig;
 use crate::signal::{Command, MAX_WHISKERS};
 
 use super::cells::{Cell, Cells};
+use super::contour_ends::{ContourEnd, ContourEnds};
+use super::contours::{ContourPoint, Contours};
 use super::grid::Grid;
 use super::settings::{MapError, MapSettings};
 use super::shaft_sweep::{Bounds, ShaftSweep};
@@ -16,6 +19,10 @@ use super::shaft_sweep::{Bounds, ShaftSweep};
 pub struct Map {
     settings: MapSettings,
     cells: Cells,
+    contours: Contours,
+    ends: ContourEnds,
+    /// Number of recorded tips that lay in free ground.
+    refuted: u64,
     /// True once the square has been laid about the first known pose.
     is_placed: bool,
     /// Corners of the body (m, body frame).
@@ -53,6 +60,11 @@ const POSE_DEVIATIONS: f64 = 3.0;
 const MOST_WAITING: usize = 7;
 /// Factor of the limits of the platform beyond which a motion in a tick is a jump of the measured pose.
 const JUMP: f64 = 1.5;
+/// Standard deviations of a tip within which it may lie outside of free ground.
+const DEVIATIONS: f64 = 3.0;
+/// Depth (m) behind a recorded surface that is blocked. It is more than the diagonal of two cells, so that no way leads between
+/// them.
+const SURFACE: f64 = 6e-3;
 /// Distance (m) ahead of a body that is stopped which must not be entered.
 const BLOCKED_AHEAD: f64 = 6e-3;
 
@@ -67,6 +79,7 @@ impl Map {
     /// If the rig has no whisker with such an index.
     pub fn new(rig: &Rig, whiskers: &[Option<usize>], settings: MapSettings) -> Result<Self, MapError> {
         settings.check()?;
+        let slots = whiskers.len();
         let fitted =
             whiskers.iter().enumerate().filter_map(|(index, at)| at.map(|at| (index, rig.whiskers[at].perceived())));
         let whiskers: Vec<_> = fitted
@@ -89,6 +102,9 @@ impl Map {
         Ok(Self {
             settings,
             cells: Cells::new(Grid::new(settings.extent, settings.cell)),
+            contours: Contours::new(slots),
+            ends: ContourEnds::new(),
+            refuted: 0,
             is_placed: false,
             outline_body: platform.outline_body(),
             whiskers,
@@ -120,8 +136,32 @@ impl Map {
         let heading = self.settings.heading_bound + POSE_DEVIATIONS * heading;
         self.claim_body(pose, position, heading);
         self.claim_shafts(perception, position, heading);
+        self.record_tips(perception, position);
+        self.ends.update(&self.contours);
         if perception.is_blocked() {
             self.block_ahead(pose, command);
+        }
+    }
+
+    /// Records the tips that perception has recorded in this tick, with this bound (m) of the error of positions. A tip inside
+    /// of free ground is not one: the whisker touches with another part.
+    fn record_tips(&mut self, perception: &Perception, position: f64) {
+        for whisker in self.whiskers.iter().map(|whisker| whisker.index) {
+            let Some(tip) = perception.recorded_tip(whisker) else {
+                self.contours.skip(whisker);
+                continue;
+            };
+            let deviation = perception.recorded_deviation(whisker);
+            if self.cells.is_inside_free(tip, self.settings.cell + DEVIATIONS * deviation + position) {
+                self.refuted += 1;
+                self.contours.skip(whisker);
+                continue;
+            }
+            let base = Point2::from(perception.whisker_vector(whisker, WhiskerVector::Base));
+            if let Some([before, now]) = self.contours.record(whisker, tip, deviation, base) {
+                let behind = -SURFACE * Vector2::new(f64::from(now.normal[0]), f64::from(now.normal[1]));
+                self.cells.block_convex([before.place, now.place, now.place + behind, before.place + behind]);
+            }
         }
     }
 
@@ -183,6 +223,34 @@ impl Map {
     /// The centres (m, world frame) of the cells that are proved free, row by row.
     pub fn free_cells(&self) -> impl Iterator<Item = Point2> + '_ {
         self.cells.free.set().map(|(column, row)| self.cells.grid.centre(column, row))
+    }
+
+    /// The recorded points of surfaces. The points of a piece are in order.
+    pub fn contours(&self) -> impl Iterator<Item = ContourPoint> + '_ {
+        self.contours.shown()
+    }
+
+    /// Length (m) of all recorded contours. A surface that was followed twice counts twice.
+    #[must_use]
+    pub fn contour_length(&self) -> f64 {
+        self.contours.length()
+    }
+
+    /// The ends of the recorded contours.
+    pub fn contour_ends(&self) -> impl Iterator<Item = ContourEnd> + '_ {
+        self.ends.ends(&self.contours).map(|(_, end)| end)
+    }
+
+    /// Number of recorded tips that were refuted, because they lay in ground that is proved free.
+    #[must_use]
+    pub fn refuted_tips(&self) -> u64 {
+        self.refuted
+    }
+
+    /// Number of recorded tips that found no memory.
+    #[must_use]
+    pub fn lost_tips(&self) -> u64 {
+        self.contours.lost()
     }
 
     /// Area (m²) that is proved free.

@@ -5,4 +5,5 @@
 
 mod certainty;
 mod in_control;
+mod surfaces;
 mod world;
