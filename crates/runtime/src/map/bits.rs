@@ -81,6 +81,16 @@ impl Bits {
         is_inside(row) && is_inside(from) && is_inside(to)
     }
 
+    /// The words of the part of a span that is in the square: the index of each, and the mask of the bits of the span.
+    pub(super) fn words(&self, row: i32, from: i32, to: i32) -> impl Iterator<Item = (usize, u64)> + use<> {
+        self.span(row, from, to)
+    }
+
+    /// The word with an index of [`words`](Self::words).
+    pub(super) fn word(&self, index: usize) -> u64 {
+        self.words[index]
+    }
+
     /// The columns and rows of the set bits, row by row.
     pub(super) fn set(&self) -> impl Iterator<Item = (i32, i32)> + '_ {
         let words = self.words.iter().enumerate().filter(|(_, word)| **word != 0);

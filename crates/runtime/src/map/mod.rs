@@ -4,6 +4,7 @@
 
 mod bits;
 mod cells;
+mod clearance;
 mod contour_ends;
 mod contours;
 mod grid;
@@ -14,6 +15,7 @@ mod shaft_sweep;
 mod touch_map;
 
 pub use cells::Cell;
+pub use clearance::Ground;
 pub use contour_ends::{ContourEnd, EndKind};
 pub use contours::ContourPoint;
 pub use settings::{MapError, MapSettings};

@@ -8,6 +8,7 @@ use crate::rig::Rig;
 use crate::signal::{Command, MAX_WHISKERS};
 
 use super::cells::{Cell, Cells};
+use super::clearance::{self, Ground, NearSurfaces};
 use super::contour_ends::{ContourEnd, ContourEnds};
 use super::contours::{ContourPoint, Contours};
 use super::grid::Grid;
@@ -25,8 +26,10 @@ pub struct Map {
     refuted: u64,
     /// True once the square has been laid about the first known pose.
     is_placed: bool,
-    /// Corners of the body (m, body frame).
+    near: NearSurfaces,
+    /// Corners of the body (m, body frame), and with the margin of a clear pose.
     outline_body: [Point2; 4],
+    clear_outline: [Point2; 4],
     whiskers: Vec<MappedWhisker>,
     /// Poses of the newest ticks, the newest first. Unknown after a gap.
     poses: [Pose; MOST_WAITING + 1],
@@ -99,14 +102,22 @@ impl Map {
             .map(|whisker| whisker.base_body.coords.norm() + whisker.shaft.length)
             .fold(0.0, math::max);
         let platform = &rig.platform;
+        let outline_body = platform.outline_body();
+        let margin = clearance::cell_margin(settings.cell)
+            + settings.position_bound
+            + settings.heading_bound * clearance::reach(&outline_body);
+        let longest = rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, math::max);
+        let grid = Grid::new(settings.extent, settings.cell);
         Ok(Self {
             settings,
-            cells: Cells::new(Grid::new(settings.extent, settings.cell)),
+            cells: Cells::new(grid),
+            near: NearSurfaces::new(grid, longest),
             contours: Contours::new(slots),
             ends: ContourEnds::new(),
             refuted: 0,
             is_placed: false,
-            outline_body: platform.outline_body(),
+            outline_body,
+            clear_outline: clearance::grown(&outline_body, margin).unwrap_or(outline_body),
             whiskers,
             poses: [Pose::UNKNOWN; MOST_WAITING + 1],
             waiting,
@@ -160,6 +171,9 @@ impl Map {
             let base = Point2::from(perception.whisker_vector(whisker, WhiskerVector::Base));
             if let Some([before, now]) = self.contours.record(whisker, tip, deviation, base) {
                 let behind = -SURFACE * Vector2::new(f64::from(now.normal[0]), f64::from(now.normal[1]));
+                if let Some(cell) = self.cells.grid.cell_at(tip) {
+                    self.near.add(cell);
+                }
                 self.cells.block_convex([before.place, now.place, now.place + behind, before.place + behind]);
             }
         }
@@ -167,9 +181,9 @@ impl Map {
 
     /// Makes the cells free that the body covers, in spite of these bounds of the error of its pose (m, rad).
     fn claim_body(&mut self, pose: Pose, position: f64, heading: f64) {
-        let reach = self.outline_body.iter().map(|corner| corner.coords.norm()).fold(0.0, math::max);
-        let Some(outline) = shrunk(&self.outline_body, position + heading * reach) else { return };
-        self.cells.free_convex(outline.map(|corner| pose.point_to_world(corner)));
+        let by = position + heading * clearance::reach(&self.outline_body);
+        let Some(outline) = clearance::grown(&self.outline_body, -by) else { return };
+        self.cells.free_convex(clearance::at_pose(&outline, pose));
     }
 
     /// Makes the cells free that straight shafts have swept.
@@ -205,7 +219,7 @@ impl Map {
             heading: pose.heading + time * command.yaw_rate,
         };
         // The body covers its own place, so only the strip ahead is not free.
-        self.cells.block_convex(self.outline_body.map(|corner| ahead.point_to_world(corner)));
+        self.cells.block_convex(clearance::at_pose(&self.outline_body, ahead));
     }
 
     /// True if a point (m, world frame) is proved free.
@@ -218,6 +232,22 @@ impl Map {
     #[must_use]
     pub fn at(&self, point: Point2) -> Cell {
         if self.is_placed { self.cells.at(point) } else { Cell::Unknown }
+    }
+
+    /// The ground that the body covers at a pose, with a margin for the size of the cells and for the bounds of the settings.
+    #[must_use]
+    pub fn ground(&self, pose: Pose) -> Ground {
+        if !self.is_placed {
+            return Ground::Unknown;
+        }
+        let corners = clearance::at_pose(&self.clear_outline, pose).map(|corner| self.cells.grid.to_cells(corner));
+        clearance::ground_of_polygon(&self.cells, &self.near, &corners)
+    }
+
+    /// True if the body touches nothing at a pose: all of its ground is proved free.
+    #[must_use]
+    pub fn clear(&self, pose: Pose) -> bool {
+        self.ground(pose) == Ground::Proved
     }
 
     /// The centres (m, world frame) of the cells that are proved free, row by row.
@@ -258,29 +288,4 @@ impl Map {
     pub fn free_area(&self) -> f64 {
         self.cells.free_area()
     }
-}
-
-/// A convex polygon without the points that are nearer to its edges than a distance (m). `None` if nothing is left. Its
-/// corners are counter-clockwise.
-fn shrunk(outline: &[Point2; 4], by: f64) -> Option<[Point2; 4]> {
-    if by == 0.0 {
-        return Some(*outline);
-    }
-    // Every edge is moved inwards, and successive ones are intersected.
-    let edge = |index: usize| {
-        let (a, b) = (outline[index % 4], outline[(index + 1) % 4]);
-        let along = (b - a).try_normalize(0.0).unwrap_or_default();
-        (a + by * perpendicular(along), along)
-    };
-    let corner = |index: usize| {
-        let ((a, before), (b, after)) = (edge(index + 3), edge(index));
-        let turn = before.perp(&after);
-        a + before * ((b - a).perp(&after) / turn)
-    };
-    let inner: [Point2; 4] = std::array::from_fn(corner);
-    let keeps_its_order = (0..4).all(|index| {
-        let along = outline[(index + 1) % 4] - outline[index];
-        (inner[(index + 1) % 4] - inner[index]).dot(&along) > 0.0
-    });
-    keeps_its_order.then_some(inner)
 }

@@ -57,7 +57,7 @@ fn no_covered_cell_is_ever_claimed_free() {
         ..MapSettings::default()
     };
     let maps = [false, true].map(|has_errors| rigs.each_ref().map(|rig| map(rig, settings(has_errors))));
-    let (mut claimed, mut near, mut stopped) = (0, 0, 0);
+    let (mut claimed, mut near, mut stopped, mut clear) = (0, 0, 0, 0);
     for seed in 0..SEQUENCES {
         let mut random = Random::new(seed);
         let (which, has_errors) = (random.below(2), random.below(2));
@@ -100,6 +100,20 @@ fn no_covered_cell_is_ever_claimed_free() {
             map.update(&perception, perception.pose(), going);
             perception.command(going);
         }
+        // A body in ground that is proved free touches no disk that is larger than a cell.
+        for _ in 0..10 {
+            let aside = Vector2::new(random.within(-0.06, 0.06), random.within(-0.06, 0.06));
+            let heading = world.pose.heading + random.within(-0.3, 0.3);
+            let pose = Pose { position: world.pose.position + aside, heading };
+            if map.clear(pose) {
+                clear += 1;
+                let outline = world.outline(pose);
+                for object in &world.objects {
+                    let is_large = matches!(object, Object::Disk(_, radius) if *radius > 4e-3);
+                    assert!(!is_large || !object.overlaps(&outline), "sequence {seed}: {pose:?} overlaps {object:?}");
+                }
+            }
+        }
         for centre in map.free_cells() {
             claimed += 1;
             for object in &world.objects {
@@ -111,6 +125,7 @@ fn no_covered_cell_is_ever_claimed_free() {
     }
     // Without these the assertion says nothing.
     assert!(claimed > 10_000_000 / 10_000 * SEQUENCES, "{claimed} cells");
+    assert!(clear > SEQUENCES / 100, "{clear} clear poses");
     assert!(near > 1000 && stopped > 1000, "{near} cells near objects, {stopped} ticks without motion");
 }
 
