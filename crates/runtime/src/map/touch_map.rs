@@ -11,9 +11,12 @@ use super::cells::{Cell, Cells};
 use super::clearance::{self, Ground, NearSurfaces};
 use super::contour_ends::{ContourEnd, ContourEnds};
 use super::contours::{ContourPoint, Contours};
+use super::first_touch::FirstTouch;
 use super::grid::Grid;
+use super::mapped_whisker::{MappedWhisker, Touch};
 use super::settings::{MapError, MapSettings};
-use super::shaft_sweep::{Bounds, ShaftSweep};
+use super::shaft_contact::ShaftContact;
+use super::shaft_sweep::Bounds;
 
 /// A map by touch. Memory is allocated when it is created, and a tick does a bounded amount of work.
 #[derive(Debug, Clone)]
@@ -22,7 +25,7 @@ pub struct Map {
     cells: Cells,
     contours: Contours,
     ends: ContourEnds,
-    /// Number of recorded tips that lay in free ground.
+    /// Number of recorded tips that lay in free ground, or whose shaft touched.
     refuted: u64,
     /// True once the square has been laid about the first known pose.
     is_placed: bool,
@@ -39,24 +42,6 @@ pub struct Map {
     jump: f64,
 }
 
-/// What the map keeps of a whisker.
-#[derive(Debug, Clone)]
-struct MappedWhisker {
-    /// Index in the policy.
-    index: usize,
-    sweep: ShaftSweep,
-    /// Number of successive ticks, up to now, in which every reading was straight.
-    straight_for: usize,
-}
-
-/// Standard deviations of a reading within which a whisker reads straight. Of twenty successive readings at this bound,
-/// half are beyond it, so a whisker that is bent by more is noticed.
-const STRAIGHT: f64 = 10.0;
-/// Standard deviation (rad) of effects outside of the model, such as vibrations of a free whisker. It limits the certainty of
-/// a sensor without noise.
-const MODEL_DEVIATION: f64 = 3e-7;
-/// Bound (rad) of the offset that perception leaves in a reading.
-const OFFSET_BOUND: f64 = 5e-7;
 /// Standard deviations of the measured errors of poses that count as their bound.
 const POSE_DEVIATIONS: f64 = 3.0;
 /// Most ticks for which a straight shaft waits.
@@ -87,7 +72,7 @@ impl Map {
             whiskers.iter().enumerate().filter_map(|(index, at)| at.map(|at| (index, rig.whiskers[at].perceived())));
         let whiskers: Vec<_> = fitted
             .take(MAX_WHISKERS)
-            .map(|(index, whisker)| MappedWhisker { index, sweep: ShaftSweep::new(&whisker), straight_for: 0 })
+            .map(|(index, whisker)| MappedWhisker::new(index, &whisker, &rig.sensing))
             .collect();
         let period = rig.sensing.control_rate.recip();
         // A base angle follows its moment after the delay of the hinge, and is read at the next sample.
@@ -133,8 +118,7 @@ impl Map {
         self.poses[0] = if is_known { pose } else { Pose::UNKNOWN };
         if !is_known {
             for whisker in &mut self.whiskers {
-                whisker.straight_for = 0;
-                whisker.sweep.interrupt();
+                whisker.interrupt();
             }
             return;
         }
@@ -146,7 +130,8 @@ impl Map {
         let position = self.settings.position_bound + POSE_DEVIATIONS * position;
         let heading = self.settings.heading_bound + POSE_DEVIATIONS * heading;
         self.claim_body(pose, position, heading);
-        self.claim_shafts(perception, position, heading);
+        self.follow_shafts(perception, position, heading);
+        self.keep_shaft_contacts();
         self.record_tips(perception, position);
         self.ends.update(&self.contours);
         if perception.is_blocked() {
@@ -154,14 +139,33 @@ impl Map {
         }
     }
 
+    /// Marks the places where shafts touch, so that no way leads through them. A place in free ground is refuted.
+    fn keep_shaft_contacts(&mut self) {
+        for whisker in &self.whiskers {
+            let Some(contact) = whisker.touch().and_then(Touch::steady_shaft) else { continue };
+            if !self.cells.is_inside_free(contact.place, self.settings.cell + DEVIATIONS * contact.deviation)
+                && let Some(cell) = self.cells.grid.cell_at(contact.place)
+            {
+                self.near.add(cell);
+                self.cells.blocked.fill(cell.1, cell.0, cell.0);
+            }
+        }
+    }
+
     /// Records the tips that perception has recorded in this tick, with this bound (m) of the error of positions. A tip inside
     /// of free ground is not one: the whisker touches with another part.
     fn record_tips(&mut self, perception: &Perception, position: f64) {
-        for whisker in self.whiskers.iter().map(|whisker| whisker.index) {
+        for slot in 0..self.whiskers.len() {
+            let whisker = self.whiskers[slot].index;
             let Some(tip) = perception.recorded_tip(whisker) else {
                 self.contours.skip(whisker);
                 continue;
             };
+            if self.whiskers[slot].touch().and_then(Touch::steady_shaft).is_some() {
+                self.refuted += 1;
+                self.contours.skip(whisker);
+                continue;
+            }
             let deviation = perception.recorded_deviation(whisker);
             if self.cells.is_inside_free(tip, self.settings.cell + DEVIATIONS * deviation + position) {
                 self.refuted += 1;
@@ -186,21 +190,39 @@ impl Map {
         self.cells.free_convex(clearance::at_pose(&outline, pose));
     }
 
-    /// Makes the cells free that straight shafts have swept.
-    fn claim_shafts(&mut self, perception: &Perception, position: f64, heading: f64) {
+    /// Makes the cells free that straight shafts have swept, and follows the contacts of the others.
+    fn follow_shafts(&mut self, perception: &Perception, position: f64, heading: f64) {
         // The shafts were straight here, and have been since.
         let settled = self.poses[self.waiting];
+        let bounds = Bounds { base_angle: 0.0, position, heading, jump: self.jump };
         for whisker in &mut self.whiskers {
-            let straight = STRAIGHT * math::hypot(perception.reading_deviation(whisker.index), MODEL_DEVIATION);
-            let is_straight = perception.largest_reading(whisker.index).is_some_and(|largest| largest < straight);
-            whisker.straight_for = if is_straight { whisker.straight_for.saturating_add(1) } else { 0 };
-            if !is_straight {
-                whisker.sweep.interrupt();
-            } else if whisker.straight_for > self.waiting && settled.is_finite() {
-                let bounds = Bounds { base_angle: straight + OFFSET_BOUND, position, heading, jump: self.jump };
+            whisker.follow(perception, &self.poses, self.waiting, &self.cells);
+            if let Some(base_angle) = whisker.straight_below(self.waiting)
+                && settled.is_finite()
+            {
+                let bounds = Bounds { base_angle, ..bounds };
                 whisker.sweep.take(settled, &bounds, |quad| self.cells.free_quad(quad));
             }
         }
+    }
+
+    /// The whisker with this index in the policy.
+    fn whisker(&self, index: usize) -> Option<&MappedWhisker> {
+        self.whiskers.iter().find(|whisker| whisker.index == index)
+    }
+
+    /// The contact of a whisker, by its index in the policy, at a place that is fixed, while it is bent. It is one of the shaft only if
+    /// [`ShaftContact::is_shaft`].
+    #[must_use]
+    pub fn shaft_contact(&self, whisker: usize) -> Option<&ShaftContact> {
+        self.whisker(whisker)?.touch()?.contact.as_ref()
+    }
+
+    /// The part of a whisker that may have touched first, since it is bent. `None` also if all of the shaft was beside free
+    /// ground.
+    #[must_use]
+    pub fn first_touch(&self, whisker: usize) -> Option<&FirstTouch> {
+        self.whisker(whisker)?.touch()?.first.as_ref()
     }
 
     /// Marks the strip ahead of a body at `pose` that does not move as commanded.
@@ -271,7 +293,8 @@ impl Map {
         self.ends.ends(&self.contours).map(|(_, end)| end)
     }
 
-    /// Number of recorded tips that were refuted, because they lay in ground that is proved free.
+    /// Number of recorded tips that were refuted, because they lay in ground that is proved free or because
+    /// the shaft touched.
     #[must_use]
     pub fn refuted_tips(&self) -> u64 {
         self.refuted

@@ -80,3 +80,57 @@ fn a_tip_in_free_ground_is_refuted_and_one_beside_it_is_not() {
     assert_eq!(map.refuted_tips(), refuted, "the border of free ground is where surfaces are");
     assert_eq!(map.contour_ends().count(), 2);
 }
+
+/// A base angle and a base pose of a shaft that rests on a corner `at` (m, frame of the base) at rest, by small bends.
+#[test]
+fn a_body_that_rotates_against_a_pole_knows_where_its_shaft_touches() {
+    let rig = {
+        let mut rig = Rig::default();
+        rig.sensing.make_real();
+        rig
+    };
+    let whisker = &rig.whiskers[1];
+    let stiffness = whisker.shaft.bending_stiffness();
+    for along in [0.03, 0.05, 0.07] {
+        let mut map = map(&rig, MapSettings::default());
+        let mut perception = super::certainty::perception(&rig);
+        let mut random = super::world::Random::new(5);
+        // Free for half a second, then the base rotates against a pole, about itself.
+        let base = Pose { position: whisker.base_body, heading: whisker.direction_body };
+        let pole = base.point_to_world(Point2::new(along, 0.0));
+        let mut found = None;
+        for tick in 0..40_u32 {
+            let samples: Vec<_> = (0..10)
+                .map(|index| {
+                    let time = f64::from(tick * 10 + index) / 300.0;
+                    let turn = 0.2 * (time - 0.5);
+                    // The body turns about the base of the whisker.
+                    let heading = -turn;
+                    let (sin, cos) = heading.sin_cos();
+                    let mount = whisker.base_body.coords;
+                    let position =
+                        whisker.base_body - Vector2::new(cos * mount.x - sin * mount.y, sin * mount.x + cos * mount.y);
+                    let mut whiskers = [Reading::default(); MAX_WHISKERS];
+                    // `M = 3 EI φ / r`, with the rotation of the hinge.
+                    let bend = if turn > 0.0 {
+                        let hinge = whisker.hinge.stiffness;
+                        turn / (1.0 + hinge * along / (3.0 * stiffness))
+                    } else {
+                        0.0
+                    };
+                    whiskers[1].base_angle = bend + 0.5e-6 * random.normal();
+                    Sample { time, body: Pose { position, heading }, whiskers }
+                })
+                .collect();
+            perception.update(&samples);
+            map.update(&perception, perception.pose(), Command::STOP);
+            found = map.shaft_contact(1).copied().or(found);
+        }
+        let found = found.unwrap();
+        assert!(found.is_shaft, "{found:?}");
+        let error = (found.place - pole).norm();
+        assert!(error < 1.5e-3 && error < 4.0 * found.deviation + 0.5e-3, "{error} m at {along} m: {found:?}");
+        let touch = map.first_touch(1).unwrap();
+        assert!(touch.distances[0] < along && along < touch.distances[1], "{touch:?}");
+    }
+}
