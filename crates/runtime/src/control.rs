@@ -137,6 +137,11 @@ impl Control {
         self.map.as_deref()
     }
 
+    /// The map of this controller, if it has one, to set a goal or to report a failure.
+    pub fn map_mut(&mut self) -> Option<&mut Map> {
+        self.map.as_deref_mut()
+    }
+
     /// The machine of this controller.
     #[must_use]
     pub fn machine(&self) -> &Machine {

@@ -1,5 +1,7 @@
 //! The settings of a map.
 
+use super::route_search::Pace;
+
 /// Largest memory of the cells, as their number on a side. Two bits for each are then 16 MB.
 const MOST_CELLS: f64 = 8192.0;
 
@@ -15,6 +17,8 @@ pub struct MapSettings {
     /// Bound (rad) of the error of every measured heading and of the direction in which a whisker is mounted. Measured
     /// errors are added.
     pub heading_bound: f64,
+    /// Speeds by which routes and targets are compared.
+    pub pace: Pace,
 }
 
 /// Settings that give no map.
@@ -51,6 +55,8 @@ impl MapSettings {
             ("cell", self.cell, self.cell > 0.0, "positive"),
             ("position_bound", self.position_bound, self.position_bound >= 0.0, "not negative"),
             ("heading_bound", self.heading_bound, self.heading_bound >= 0.0, "not negative"),
+            ("pace in proved ground (speed)", self.pace.proved.0, self.pace.proved.0 > 0.0, "positive"),
+            ("pace in proved ground (yaw rate)", self.pace.proved.1, self.pace.proved.1 > 0.0, "positive"),
         ];
         for (name, value, is_in_range, range) in rows {
             if !value.is_finite() || !is_in_range {
@@ -65,8 +71,8 @@ impl MapSettings {
 }
 
 impl Default for MapSettings {
-    /// 5 m × 5 m in cells of 2 mm, with exact poses.
+    /// 5 m × 5 m in cells of 2 mm, with exact poses and the default pace.
     fn default() -> Self {
-        Self { extent: 5.0, cell: 2e-3, position_bound: 0.0, heading_bound: 0.0 }
+        Self { extent: 5.0, cell: 2e-3, position_bound: 0.0, heading_bound: 0.0, pace: Pace::default() }
     }
 }

@@ -7,37 +7,45 @@ use crate::percept::Perception;
 use crate::rig::Rig;
 use crate::signal::{Command, MAX_WHISKERS};
 
-use super::cells::{Cell, Cells};
-use super::clearance::{self, Ground, NearSurfaces};
-use super::contour_ends::{ContourEnd, ContourEnds};
-use super::contours::{ContourPoint, Contours};
-use super::first_touch::FirstTouch;
+use super::cells::Cells;
+use super::clearance::{self, NearSurfaces};
+use super::contour_ends::ContourEnds;
+use super::contours::{Contours, MOST_PIECES};
+use super::frontier::{BLOCK, Frontier};
 use super::grid::Grid;
+use super::lattice::Lattice;
 use super::mapped_whisker::{MappedWhisker, Touch};
+use super::route::Route;
 use super::settings::{MapError, MapSettings};
-use super::shaft_contact::ShaftContact;
 use super::shaft_sweep::Bounds;
+use super::targets::{Known, Targets};
 
 /// A map by touch. Memory is allocated when it is created, and a tick does a bounded amount of work.
 #[derive(Debug, Clone)]
 pub struct Map {
-    settings: MapSettings,
-    cells: Cells,
-    contours: Contours,
-    ends: ContourEnds,
+    pub(super) settings: MapSettings,
+    pub(super) cells: Cells,
+    pub(super) contours: Contours,
+    pub(super) ends: ContourEnds,
+    pub(super) frontier: Frontier,
+    pub(super) targets: Targets,
+    pub(super) route: Route,
     /// Number of recorded tips that lay in free ground, or whose shaft touched.
-    refuted: u64,
+    pub(super) refuted: u64,
     /// True once the square has been laid about the first known pose.
-    is_placed: bool,
-    near: NearSurfaces,
+    pub(super) is_placed: bool,
+    pub(super) near: NearSurfaces,
     /// Corners of the body (m, body frame), and with the margin of a clear pose.
     outline_body: [Point2; 4],
-    clear_outline: [Point2; 4],
+    pub(super) clear_outline: [Point2; 4],
     whiskers: Vec<MappedWhisker>,
     /// Poses of the newest ticks, the newest first. Unknown after a gap.
     poses: [Pose; MOST_WAITING + 1],
     /// Number of ticks for which a straight shaft waits.
     waiting: usize,
+    /// Number of successive ticks in which the body was stopped, and the period of a tick (s).
+    stopped_for: u32,
+    period: f64,
     /// Largest motion (m) of a point of the array in a tick.
     jump: f64,
 }
@@ -53,6 +61,8 @@ const DEVIATIONS: f64 = 3.0;
 /// Depth (m) behind a recorded surface that is blocked. It is more than the diagonal of two cells, so that no way leads between
 /// them.
 const SURFACE: f64 = 6e-3;
+/// Successive ticks in which a body must be stopped. Its servos need some of them to follow a command.
+const STOPPED: u32 = 5;
 /// Distance (m) ahead of a body that is stopped which must not be entered.
 const BLOCKED_AHEAD: f64 = 6e-3;
 
@@ -70,10 +80,9 @@ impl Map {
         let slots = whiskers.len();
         let fitted =
             whiskers.iter().enumerate().filter_map(|(index, at)| at.map(|at| (index, rig.whiskers[at].perceived())));
-        let whiskers: Vec<_> = fitted
-            .take(MAX_WHISKERS)
-            .map(|(index, whisker)| MappedWhisker::new(index, &whisker, &rig.sensing))
-            .collect();
+        let fitted: Vec<_> = fitted.take(MAX_WHISKERS).collect();
+        let whiskers: Vec<_> =
+            fitted.iter().map(|(index, whisker)| MappedWhisker::new(*index, whisker, &rig.sensing)).collect();
         let period = rig.sensing.control_rate.recip();
         // A base angle follows its moment after the delay of the hinge, and is read at the next sample.
         let delay =
@@ -93,8 +102,14 @@ impl Map {
             + settings.heading_bound * clearance::reach(&outline_body);
         let longest = rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, math::max);
         let grid = Grid::new(settings.extent, settings.cell);
+        let clear_outline = clearance::grown(&outline_body, margin).unwrap_or(outline_body);
+        let targets = fitted.iter().map(|(index, whisker)| (*index, whisker));
+        let block = BLOCK as f64 * settings.cell;
         Ok(Self {
             settings,
+            frontier: Frontier::new(grid),
+            targets: Targets::new(targets, settings.pace, block, 2 * MOST_PIECES),
+            route: Route::new(Lattice::new(grid, clear_outline, outline_body), settings.pace),
             cells: Cells::new(grid),
             near: NearSurfaces::new(grid, longest),
             contours: Contours::new(slots),
@@ -102,10 +117,12 @@ impl Map {
             refuted: 0,
             is_placed: false,
             outline_body,
-            clear_outline: clearance::grown(&outline_body, margin).unwrap_or(outline_body),
+            clear_outline,
             whiskers,
             poses: [Pose::UNKNOWN; MOST_WAITING + 1],
             waiting,
+            stopped_for: 0,
+            period,
             jump: JUMP * period * (platform.speed_limit + platform.yaw_rate_limit * reach),
         })
     }
@@ -134,9 +151,21 @@ impl Map {
         self.keep_shaft_contacts();
         self.record_tips(perception, position);
         self.ends.update(&self.contours);
-        if perception.is_blocked() {
+        let is_stopped = perception.is_blocked() && !self.has_moved(command);
+        self.stopped_for = if is_stopped { self.stopped_for.saturating_add(1) } else { 0 };
+        if self.stopped_for >= STOPPED {
             self.block_ahead(pose, command);
         }
+        let known = Known {
+            cells: &self.cells,
+            near: &self.near,
+            lattice: self.route.lattice(),
+            contours: &self.contours,
+            ends: &self.ends,
+            body: pose,
+        };
+        self.targets.update(known, &mut self.frontier);
+        self.route.update(&self.cells, &self.near, pose);
     }
 
     /// Marks the places where shafts touch, so that no way leads through them. A place in free ground is refuted.
@@ -148,6 +177,7 @@ impl Map {
             {
                 self.near.add(cell);
                 self.cells.blocked.fill(cell.1, cell.0, cell.0);
+                self.targets.touch(contact.place, contact.normal);
             }
         }
     }
@@ -207,22 +237,25 @@ impl Map {
     }
 
     /// The whisker with this index in the policy.
-    fn whisker(&self, index: usize) -> Option<&MappedWhisker> {
+    pub(super) fn whisker(&self, index: usize) -> Option<&MappedWhisker> {
         self.whiskers.iter().find(|whisker| whisker.index == index)
     }
 
-    /// The contact of a whisker, by its index in the policy, at a place that is fixed, while it is bent. It is one of the shaft only if
-    /// [`ShaftContact::is_shaft`].
-    #[must_use]
-    pub fn shaft_contact(&self, whisker: usize) -> Option<&ShaftContact> {
-        self.whisker(whisker)?.touch()?.contact.as_ref()
-    }
-
-    /// The part of a whisker that may have touched first, since it is bent. `None` also if all of the shaft was beside free
-    /// ground.
-    #[must_use]
-    pub fn first_touch(&self, whisker: usize) -> Option<&FirstTouch> {
-        self.whisker(whisker)?.touch()?.first.as_ref()
+    /// True if the body has moved in this tick by at least half of what a command says. A body that is merely faster than its servos
+    /// should be also differs from what is expected.
+    fn has_moved(&self, command: Command) -> bool {
+        let [now, before] = [self.poses[0], self.poses[1]];
+        if !before.is_finite() {
+            return true;
+        }
+        let by_command = self.outline_body.iter().map(|corner| {
+            let (arm, was) = (now.point_to_world(*corner), before.point_to_world(*corner));
+            let asked = command.velocity_world + command.yaw_rate * perpendicular(now.vector_to_world(corner.coords));
+            ((arm - was).dot(&asked), asked.norm_squared() * self.period)
+        });
+        // The corners together, because one of them may be the pivot.
+        let (done, asked) = by_command.fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+        done >= 0.5 * asked
     }
 
     /// Marks the strip ahead of a body at `pose` that does not move as commanded.
@@ -242,73 +275,5 @@ impl Map {
         };
         // The body covers its own place, so only the strip ahead is not free.
         self.cells.block_convex(clearance::at_pose(&self.outline_body, ahead));
-    }
-
-    /// True if a point (m, world frame) is proved free.
-    #[must_use]
-    pub fn is_free(&self, point: Point2) -> bool {
-        self.at(point) == Cell::Free
-    }
-
-    /// What is known of a point (m, world frame).
-    #[must_use]
-    pub fn at(&self, point: Point2) -> Cell {
-        if self.is_placed { self.cells.at(point) } else { Cell::Unknown }
-    }
-
-    /// The ground that the body covers at a pose, with a margin for the size of the cells and for the bounds of the settings.
-    #[must_use]
-    pub fn ground(&self, pose: Pose) -> Ground {
-        if !self.is_placed {
-            return Ground::Unknown;
-        }
-        let corners = clearance::at_pose(&self.clear_outline, pose).map(|corner| self.cells.grid.to_cells(corner));
-        clearance::ground_of_polygon(&self.cells, &self.near, &corners)
-    }
-
-    /// True if the body touches nothing at a pose: all of its ground is proved free.
-    #[must_use]
-    pub fn clear(&self, pose: Pose) -> bool {
-        self.ground(pose) == Ground::Proved
-    }
-
-    /// The centres (m, world frame) of the cells that are proved free, row by row.
-    pub fn free_cells(&self) -> impl Iterator<Item = Point2> + '_ {
-        self.cells.free.set().map(|(column, row)| self.cells.grid.centre(column, row))
-    }
-
-    /// The recorded points of surfaces. The points of a piece are in order.
-    pub fn contours(&self) -> impl Iterator<Item = ContourPoint> + '_ {
-        self.contours.shown()
-    }
-
-    /// Length (m) of all recorded contours. A surface that was followed twice counts twice.
-    #[must_use]
-    pub fn contour_length(&self) -> f64 {
-        self.contours.length()
-    }
-
-    /// The ends of the recorded contours.
-    pub fn contour_ends(&self) -> impl Iterator<Item = ContourEnd> + '_ {
-        self.ends.ends(&self.contours).map(|(_, end)| end)
-    }
-
-    /// Number of recorded tips that were refuted, because they lay in ground that is proved free or because
-    /// the shaft touched.
-    #[must_use]
-    pub fn refuted_tips(&self) -> u64 {
-        self.refuted
-    }
-
-    /// Number of recorded tips that found no memory.
-    #[must_use]
-    pub fn lost_tips(&self) -> u64 {
-        self.contours.lost()
-    }
-
-    /// Area (m²) that is proved free.
-    #[must_use]
-    pub fn free_area(&self) -> f64 {
-        self.cells.free_area()
     }
 }

@@ -4,6 +4,7 @@
 #![allow(missing_docs, reason = "a test")]
 
 mod certainty;
+mod exploring;
 mod in_control;
 mod surfaces;
 mod world;

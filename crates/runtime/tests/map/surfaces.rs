@@ -2,7 +2,7 @@
 
 use vibrissa_runtime::geometry::{Point2, Pose, Vector2};
 use vibrissa_runtime::machine::{ContactEstimatorKind, Senses};
-use vibrissa_runtime::map::{Cell, EndKind, Map, MapSettings};
+use vibrissa_runtime::map::{Cell, EndKind, Map, MapSettings, TargetKind};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample, TrueTip};
@@ -62,6 +62,48 @@ fn a_wall_becomes_a_contour_with_two_open_ends_and_blocked_ground_behind() {
         assert_eq!(map.at(Point2::new(x, -0.1025)), Cell::Blocked, "{x}");
     }
     assert_eq!(map.at(Point2::new(0.2, -0.15)), Cell::Unknown);
+}
+
+#[test]
+fn the_ends_of_a_wall_are_the_first_targets_and_close_after_three_failures() {
+    let rig = Rig::default();
+    let mut map = map(&rig, MapSettings { extent: 2.0, ..MapSettings::default() });
+    let along_the_wall = |x: f64| (0.1..0.3).contains(&x).then(|| Point2::new(x + AHEAD, -0.1));
+    follow(&mut map, &rig, 240, along_the_wall);
+    // A body that stands still until the targets are chosen again.
+    let stand = |map: &mut Map| {
+        let mut perception = told(&rig);
+        for tick in 0..60 {
+            let body = Pose { position: Point2::new(0.4, 0.0), heading: 0.0 };
+            let sample =
+                Sample { time: 8.0 + f64::from(tick) / 30.0, body, whiskers: [Reading::default(); MAX_WHISKERS] };
+            perception.update(&[sample]);
+            map.update(&perception, perception.pose(), Command::STOP);
+        }
+    };
+    let mut seen = Vec::new();
+    for _ in 0..7 {
+        stand(&mut map);
+        let target = map.next_target().unwrap();
+        if target.kind == TargetKind::OpenEnd {
+            // Only the right whisker goes on to the right of the wall's far end, with the body parallel to the wall.
+            let is_far = target.place.x > 0.2;
+            assert_eq!(target.whisker, usize::from(!is_far), "{target:?}");
+            let heading: f64 = if is_far { 0.0 } else { std::f64::consts::PI };
+            assert!((target.pose.heading - heading).sin().abs() < 1e-2 && (target.pose.heading - heading).cos() > 0.9);
+            // The straight tip is before the surface, on known contour.
+            let mount = &rig.whiskers[target.whisker];
+            let tip = mount.base_pose().point_to_world(Point2::new(mount.shaft.length, 0.0));
+            let tip = target.pose.point_to_world(tip);
+            assert!((tip - target.place).norm() < 0.02 && tip.y > target.place.y + 5e-3, "{tip}");
+        }
+        seen.push((target.kind, target.place.x > 0.2));
+        map.fail_target();
+        assert!(!map.is_complete());
+    }
+    let ends = seen.iter().filter(|(kind, _)| *kind == TargetKind::OpenEnd).count();
+    assert_eq!((ends, seen[6].0), (6, TargetKind::Frontier), "{seen:?}");
+    assert_eq!(seen.iter().filter(|(_, is_far)| *is_far).count() - usize::from(seen[6].1), 3, "each end three times");
 }
 
 #[test]

@@ -238,6 +238,7 @@ pub(crate) struct World {
     /// Errors of measured poses (m, rad) are uniform within these bounds, and constant during a run.
     pub(crate) pose_error: Pose,
     bent: Vec<Bent>,
+    moving: Command,
 }
 
 impl World {
@@ -250,7 +251,16 @@ impl World {
         };
         let bent = rig.whiskers.iter().map(bent).collect();
         let random = Random::new(seed + 1_000_000);
-        Self { rig: rig.clone(), objects, pose, time: 0.0, random, pose_error: Pose::default(), bent }
+        Self {
+            rig: rig.clone(),
+            objects,
+            pose,
+            time: 0.0,
+            random,
+            pose_error: Pose::default(),
+            bent,
+            moving: Command::STOP,
+        }
     }
 
     /// Samples in a control period.
@@ -271,12 +281,18 @@ impl World {
         (0..Self::SAMPLES)
             .map(|_| {
                 self.time += step;
+                // Servos follow with a lag.
+                let share = step / self.rig.platform.servo;
+                self.moving.velocity_world += (command.velocity_world - self.moving.velocity_world) * share;
+                self.moving.yaw_rate += (command.yaw_rate - self.moving.yaw_rate) * share;
                 let next = Pose {
-                    position: self.pose.position + command.velocity_world * step,
-                    heading: self.pose.heading + command.yaw_rate * step,
+                    position: self.pose.position + self.moving.velocity_world * step,
+                    heading: self.pose.heading + self.moving.yaw_rate * step,
                 };
                 if self.is_clear(next) {
                     self.pose = next;
+                } else {
+                    self.moving = Command::STOP;
                 }
                 let mut whiskers = [Reading::default(); MAX_WHISKERS];
                 for ((reading, whisker), bent) in whiskers.iter_mut().zip(&self.rig.whiskers).zip(&mut self.bent) {
