@@ -24,6 +24,7 @@ struct SpanWords {
 impl Iterator for SpanWords {
     type Item = (usize, u64);
 
+    #[inline]
     fn next(&mut self) -> Option<(usize, u64)> {
         if self.is_done {
             return None;

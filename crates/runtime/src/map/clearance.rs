@@ -66,23 +66,27 @@ impl NearSurfaces {
         }
     }
 
-    /// The cells of a word of [`Bits`] that are in blocks near a surface.
-    fn word(&self, index: usize) -> u64 {
-        let (row, word) = (index / self.per_row, index % self.per_row);
-        let byte = self.bytes[row / BLOCK * self.per_row + word];
-        if byte == 0 {
-            return 0;
-        }
-        (0..BLOCK).filter(|bit| byte >> bit & 1 == 1).map(|bit| 0xff << (bit * BLOCK)).sum()
+    /// The blocks of a row of cells, one byte for each word.
+    fn row(&self, row: usize) -> &[u8] {
+        let first = row / BLOCK * self.per_row;
+        &self.bytes[first..first + self.per_row]
     }
+}
+
+/// A word with all bits of the bytes whose bits are set in `byte`.
+fn spread(byte: u8) -> u64 {
+    const ONES: u64 = 0x0101_0101_0101_0101;
+    // Each byte keeps its own bit, and an addition carries it to the highest bit of the byte.
+    let own = (u64::from(byte) * ONES) & 0x8040_2010_0804_0201;
+    let highest = ((own & (0x7f * ONES)) + 0x7f * ONES) | own;
+    (highest >> 7 & ONES) * 0xff
 }
 
 /// The ground of a span of cells.
 pub(super) fn ground_of_span(cells: &Cells, near: &NearSurfaces, row: i32, from: i32, to: i32) -> Ground {
     let bits: &Bits = &cells.free;
-    if !bits.contains(row, from, to) {
-        return Ground::Blocked;
-    }
+    let (true, Ok(line)) = (bits.contains(row, from, to), usize::try_from(row)) else { return Ground::Blocked };
+    let (blocks, first) = (near.row(line), line * near.per_row);
     let mut worst = Ground::Proved;
     for (index, mask) in bits.words(row, from, to) {
         let unknown = mask & !bits.word(index);
@@ -92,8 +96,8 @@ pub(super) fn ground_of_span(cells: &Cells, near: &NearSurfaces, row: i32, from:
         if unknown & cells.blocked.word(index) != 0 {
             return Ground::Blocked;
         }
-        let found = if unknown & near.word(index) == 0 { Ground::Unknown } else { Ground::NearSurface };
-        worst = worst.max(found);
+        let is_near = blocks[index - first] != 0 && unknown & spread(blocks[index - first]) != 0;
+        worst = worst.max(if is_near { Ground::NearSurface } else { Ground::Unknown });
     }
     worst
 }
@@ -230,6 +234,14 @@ mod tests {
                     prop_assert_eq!(found, Ground::Unknown);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_byte_is_spread_bit_by_bit() {
+        for byte in 0..=u8::MAX {
+            let expected = (0..64).filter(|bit| byte >> (bit / 8) & 1 == 1).fold(0_u64, |word, bit| word | 1 << bit);
+            assert_eq!(spread(byte), expected, "{byte}");
         }
     }
 

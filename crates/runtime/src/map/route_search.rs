@@ -197,7 +197,10 @@ impl RouteSearch {
             for step in 0..MOVES {
                 let Some(next) = lattice.next(node, step) else { continue };
                 let number = lattice.key(next);
-                if self.slot(number).is_some_and(|slot| self.table[slot].key != 0 && self.table[slot].is_closed) {
+                // The ground need not be looked at if no ground makes the way through this pose shorter.
+                let at_best =
+                    u32::from(cost) + self.pace.cost(Ground::Proved, lattice.size(cells.grid, step)).unwrap_or(0);
+                if self.is_settled(number, at_best) {
                     continue;
                 }
                 let ground = lattice.ground(cells, near, node, step);
@@ -257,6 +260,12 @@ impl RouteSearch {
             let key = self.table[slot].key;
             key == 0 || key == number + 1
         })
+    }
+
+    /// True if a pose is closed or was reached at no more than this cost.
+    fn is_settled(&self, number: u32, cost: u32) -> bool {
+        let entry = self.slot(number).map(|slot| self.table[slot]).filter(|entry| entry.key != 0);
+        entry.is_some_and(|entry| entry.is_closed || u32::from(entry.cost) <= cost)
     }
 
     /// Reaches a pose at a cost. Returns false if no memory is left.
