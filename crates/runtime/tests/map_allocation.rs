@@ -35,7 +35,7 @@ fn a_map_has_its_memory_from_the_start() {
     let wall = [(0.3, -0.3), (0.4, -0.3), (0.4, 0.1), (0.3, 0.1)].map(|(x, y)| Point2::new(x, y));
     let objects = vec![Object::Disk(Point2::new(0.15, 0.19), 0.08), Object::Polygon(wall.to_vec())];
     let mut world = World::new(&rig, objects, Pose::default(), 1);
-    let (mut touches, mut stopped) = (0, 0);
+    let (mut touches, mut stopped, mut targets, mut found) = (0, 0, 0, 0);
     for tick in 0..1500 {
         let there = tick % 300 < 200;
         let speed = if there { 0.05 } else { -0.08 };
@@ -46,11 +46,20 @@ fn a_map_has_its_memory_from_the_start() {
         let before = allocations();
         map.update(&perception, perception.pose(), command);
         let _ = map.at(Point2::new(0.1, 0.1));
+        if let Some(target) = map.next_target() {
+            map.seek_route(Some(target.pose));
+            targets += 1;
+        }
+        found += usize::from(!map.route().is_empty());
+        if tick % 200 == 199 {
+            map.fail_target();
+        }
         assert_eq!(allocations() - before, 0, "tick {tick}");
         touches += usize::from(perception.is_touching(1));
         stopped += usize::from(perception.is_blocked());
         perception.command(command);
     }
     assert!(touches > 50 && stopped > 50, "{touches} touches, {stopped} ticks against the wall");
+    assert!(targets > 500 && found > 100, "{targets} ticks with a target, {found} with a route");
     assert!(map.free_area() > 0.05, "{} m²", map.free_area());
 }

@@ -5,6 +5,7 @@ use crate::math;
 
 use super::bits::{Bits, WORD};
 use super::cells::Cells;
+use super::frontier::BLOCK;
 use super::grid::Grid;
 use super::polygon::each_span;
 
@@ -20,10 +21,6 @@ pub enum Ground {
     /// A part is blocked or outside of the map.
     Blocked,
 }
-
-/// Cells of a block on a side. A byte is a block row of a word.
-const BLOCK: usize = 8;
-const BLOCK_CELLS: i32 = 8;
 
 /// Blocks near known surfaces, with the layout of [`Bits`]: one byte for the eight blocks of a word.
 #[derive(Debug, Clone)]
@@ -45,7 +42,7 @@ impl NearSurfaces {
 
     /// Adds a surface in a cell.
     pub(super) fn add(&mut self, (column, row): (i32, i32)) {
-        let block = |at: i32| at.div_euclid(BLOCK_CELLS);
+        let block = |at: i32| at.div_euclid(i32::try_from(BLOCK).unwrap_or(1));
         let (column, row) = (block(column), block(row));
         for down in -self.reach..=self.reach {
             let half = f64::from(self.reach * self.reach - down * down).sqrt();

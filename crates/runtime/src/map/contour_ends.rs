@@ -40,7 +40,7 @@ const SAME: f64 = 3.0;
 const SAME_LEAST: f64 = 6e-3;
 /// Longest gap (m). Parts that are farther apart are open ends.
 const LONGEST_GAP: f64 = 80e-3;
-/// Cosine of the largest angle between the contour's direction at its end and the way across a gap.
+/// Cosine of the largest angle between the contour's direction at its end and the path across a gap.
 const AHEAD: f64 = 0.5;
 /// Cosine of the largest angle between the normals of points of one surface. The other side of a plate is another surface.
 const ALIKE: f64 = -0.2;

@@ -71,7 +71,7 @@ struct Recording {
 /// All pieces, in memory of a fixed size.
 ///
 /// When the memory is full, every second inner point of each piece is dropped and the spacing is doubled. A ring would forget
-/// the oldest places instead, but an old place is as good as a new one for routes, and its ends are needed for targets.
+/// the oldest positions instead, but an old one is as good as a new one for routes, and ends are needed for targets.
 #[derive(Debug, Clone)]
 pub(super) struct Contours {
     points: Vec<Stored>,

@@ -15,9 +15,9 @@ pub struct FirstTouch {
     pub reaches_tip: bool,
 }
 
-/// Places, each a cell long, by which the part is longer than what was seen at the centres of cells.
+/// Positions, each a cell long, by which the part is longer than what was seen at the centres of cells.
 const AROUND: i32 = 2;
-/// Most places along a shaft that are looked at.
+/// Most positions along a shaft that are looked at.
 const MOST_PLACES: f64 = 512.0;
 
 impl FirstTouch {

@@ -12,7 +12,7 @@ pub(super) const BLOCK: usize = 8;
 const MOSTLY: u32 = 48;
 /// Block rows that are looked at in a tick.
 const ROWS: usize = 16;
-/// Blocks about a place that fail with it. More would close places that were never tried.
+/// Blocks about a place that fail with it. More would close positions that were never tried.
 const CLOSED_AROUND: i32 = 1;
 /// Failures after which a place is closed.
 const FAILURES: u8 = 3;

@@ -140,7 +140,7 @@ impl Lattice {
     }
 
     /// The ground between the place of the body and a pose near it. A body that stands beside a surface, or that was stopped, has
-    /// blocked ground within its margin. It may leave to a clear pose if its own outline meets none on the way. One that is partly in
+    /// blocked ground within its margin. It may leave to a clear pose if its own outline meets none on the path. One that is partly in
     /// blocked ground or outside of the map may leave to any clear pose, slowly.
     pub(super) fn ground_leaving(&self, cells: &Cells, near: &NearSurfaces, from: Pose, to: Pose) -> Ground {
         let ground = self.ground_between(cells, near, from, to);

@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::math;
-use crate::percept::Perception;
+use crate::percept::{MODEL_DEVIATION, Perception, TOLERATED_OFFSET};
 use crate::rig::{Sensing, Whisker};
 
 use super::cells::Cells;
@@ -13,12 +13,6 @@ use super::shaft_sweep::ShaftSweep;
 /// Standard deviations of a reading within which a whisker reads straight. Of twenty successive readings at this bound,
 /// half are beyond it, so a whisker that is bent by more is noticed.
 const STRAIGHT: f64 = 10.0;
-/// Standard deviation (rad) of effects outside of the model, such as vibrations of a free whisker. It limits the certainty of
-/// a sensor without noise.
-const MODEL_DEVIATION: f64 = 3e-7;
-/// Bound (rad) of the offset that perception leaves in a reading.
-const OFFSET_BOUND: f64 = 5e-7;
-
 /// What the map keeps of a whisker.
 #[derive(Debug, Clone)]
 pub(super) struct MappedWhisker {
@@ -28,7 +22,7 @@ pub(super) struct MappedWhisker {
     mount: Pose,
     length: f64,
     fit: ShaftFit,
-    /// Share of the way from the last pose to this one at which the mean reading of a tick was valid.
+    /// Share of the path from the last pose to this one at which the mean reading of a tick was valid.
     mean_at: f64,
     /// Standard deviation of a mean reading over that of one reading.
     mean_deviation: f64,
@@ -102,7 +96,7 @@ impl MappedWhisker {
 
     /// The bound (rad) of the base angle of a whisker that has read straight for more than `waiting` ticks.
     pub(super) fn straight_below(&self, waiting: usize) -> Option<f64> {
-        (self.straight_for > waiting).then_some(self.straight + OFFSET_BOUND)
+        (self.straight_for > waiting).then_some(self.straight + TOLERATED_OFFSET)
     }
 
     /// The pose of the base with the body at `body`.
@@ -112,6 +106,7 @@ impl MappedWhisker {
 
     /// Follows a tick. `poses` are those of the body, the newest first, and a straight shaft waits for `waiting` of them.
     pub(super) fn follow(&mut self, perception: &Perception, poses: &[Pose], waiting: usize, cells: &Cells) {
+        // Effects outside of the model limit the certainty of a sensor without noise.
         let deviation = math::hypot(perception.reading_deviation(self.index), MODEL_DEVIATION);
         self.straight = STRAIGHT * deviation;
         let is_straight = perception.largest_reading(self.index).is_some_and(|largest| largest < self.straight);

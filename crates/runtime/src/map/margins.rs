@@ -3,7 +3,7 @@
 use crate::math;
 use crate::rig::Whisker;
 
-/// Number of places along a shaft, from its base to its tip, for which the displacement is stored.
+/// Number of positions along a shaft, from its base to its tip, for which the displacement is stored.
 const PLACES: usize = 9;
 
 /// The lateral displacement of a shaft whose base angle is small.
@@ -17,11 +17,11 @@ const PLACES: usize = 9;
 pub(super) struct Margins {
     /// Length of the shaft (m).
     pub(super) length: f64,
-    /// Displacements (m/rad) at the places for a base angle of 1 rad.
+    /// Displacements (m/rad) at the positions for a base angle of 1 rad.
     displacements: [f64; PLACES],
 }
 
-/// Steps of the integration in each part between two places.
+/// Steps of the integration in each part between two positions.
 const STEPS: usize = 32;
 /// Share of the square of the tip's displacement over the length by which a load at the tip shortens a uniform shaft.
 const SHORTENING: f64 = 0.6;
@@ -47,7 +47,7 @@ impl Margins {
         Self { length, displacements }
     }
 
-    /// The displacement (m) at the distance `along` (m) from the base, for a base angle (rad). Between places it is
+    /// The displacement (m) at the distance `along` (m) from the base, for a base angle (rad). Between positions it is
     /// interpolated, which is more than the exact one, because the shaft is convex.
     pub(super) fn displacement(&self, along: f64, base_angle: f64) -> f64 {
         let place = (along / self.length).clamp(0.0, 1.0) * (PLACES - 1) as f64;

@@ -1,4 +1,4 @@
-//! A map by touch: which places are proved free, which are surface, and which are unknown.
+//! A map by touch: which positions are proved free, which are surface, and which are unknown.
 //!
 //! Objects are taken as static, and poses as known up to a bound. `docs/map.md` of the repository derives the margins.
 

@@ -11,15 +11,15 @@ use super::route_search::{MOST_STEPS, Pace, Progress, RouteError, RouteSearch};
 const EXPANSIONS: usize = 40;
 /// Steps of a route that are tested again in a tick.
 const TESTED: usize = 64;
-/// Ticks after which a goal without a way is searched again, because the map grows.
+/// Ticks after which a goal without a path is searched again, because the map grows.
 const PATIENCE: u32 = 60;
 
-/// A pose of a route, and the ground of the way to it from the pose before.
+/// A pose of a route, and the ground of the path to it from the pose before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RouteStep {
     /// The pose of the body.
     pub pose: Pose,
-    /// The worst ground on the way to it. It says how fast the body may go.
+    /// The worst ground on the path to it. It says how fast the body may go.
     pub ground: Ground,
 }
 
@@ -210,7 +210,7 @@ mod tests {
         Pose { position: Point2::new(x, y), heading }
     }
 
-    /// Cost of the shortest way between two nodes, by Dijkstra.
+    /// Cost of the shortest path between two nodes, by Dijkstra.
     fn shortest(route: &Route, cells: &Cells, near: &NearSurfaces, from: Node, to: Node) -> Option<f64> {
         let lattice = &route.lattice;
         let mut done = HashMap::new();

@@ -21,7 +21,7 @@ const UNIT: f64 = 10e-3;
 /// Factor, in halves, by which the estimate of the time that is left counts more. A route is then at most so much longer than the
 /// shortest one, and the search expands a fraction of the poses.
 const WEIGHT_IN_HALVES: u32 = 3;
-/// Strides from the goal at which the rest of the way is tried.
+/// Strides from the goal at which the rest of the path is tried.
 const NEAR_GOAL: i32 = 1;
 
 /// Speeds in each kind of ground.
@@ -36,7 +36,7 @@ pub struct Pace {
 }
 
 impl Default for Pace {
-    /// A tenth of a metre a second where nothing can be met, a third of it where the body must be ready to stop, and no way near
+    /// A tenth of a metre a second where nothing can be met, a third of it where the body must be ready to stop, and no path near
     /// surfaces, which only a rig with whiskers before its nose can take.
     fn default() -> Self {
         Self { proved: (0.1, 0.8), unknown: (0.03, 0.3), near_surface: (0.0, 0.0) }

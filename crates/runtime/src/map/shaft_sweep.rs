@@ -21,7 +21,7 @@ const SPACING: f64 = 0.5e-3;
 const SUBSTEPS: usize = 3;
 /// Keyframes by which the one before a place is advanced for each place.
 const LEADS: usize = 3;
-/// Distance of the places of two neighbouring stations over the length of the shaft, beyond which the straight line between
+/// Distance of the positions of two neighbouring stations over the length of the shaft, beyond which the straight line between
 /// them says nothing about the path of the shaft. Neighbours are at most 0.15 apart on the shaft.
 const LONGEST: f64 = 0.25;
 

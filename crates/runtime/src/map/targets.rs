@@ -50,7 +50,7 @@ const BEFORE: f64 = 8e-3;
 const OVERLAP: f64 = 12e-3;
 /// Distance (m) by which a tip enters unknown ground.
 const BEYOND: f64 = 10e-3;
-/// Time (s) that any target takes besides the way.
+/// Time (s) that any target takes besides the path.
 const BASE_TIME: f64 = 2.0;
 /// Factor by which the value of another target of the same kind must be larger.
 const BETTER: f64 = 1.5;
@@ -59,7 +59,7 @@ const FAILURES: u8 = 3;
 /// Most blocks of the frontier for which poses are tried in a tick, and the headings for each whisker.
 const TRIED: usize = 1;
 const HEADINGS: usize = 8;
-/// Places where shafts have touched that are remembered, and their least distance (m).
+/// Positions where shafts have touched that are remembered, and their least distance (m).
 const PLACES: usize = 64;
 const APART: f64 = 10e-3;
 
@@ -83,7 +83,7 @@ pub(super) struct Targets {
     reach: i32,
     block: f64,
     failures: Vec<u8>,
-    /// Places and normals where shafts have touched.
+    /// Positions and normals where shafts have touched.
     touched: Vec<(Point2, Vector2)>,
     /// The best of this pass so far, and the target.
     best: Option<Target>,
@@ -250,7 +250,7 @@ impl Targets {
         self.best = best;
     }
 
-    /// Values the places where shafts have touched, and forgets those that a contour has reached.
+    /// Values the positions where shafts have touched, and forgets those that a contour has reached.
     fn value_touched(&mut self, known: Known<'_>, frontier: &Frontier) {
         self.touched
             .retain(|(place, _)| !known.contours.points().iter().any(|point| (point.place - place).norm() < APART));

@@ -58,7 +58,7 @@ const MOST_WAITING: usize = 7;
 const JUMP: f64 = 1.5;
 /// Standard deviations of a tip within which it may lie outside of free ground.
 const DEVIATIONS: f64 = 3.0;
-/// Depth (m) behind a recorded surface that is blocked. It is more than the diagonal of two cells, so that no way leads between
+/// Depth (m) behind a recorded surface that is blocked. It is more than the diagonal of two cells, so that no path leads between
 /// them.
 const SURFACE: f64 = 6e-3;
 /// Successive ticks in which a body must be stopped. Its servos need some of them to follow a command.
@@ -168,7 +168,7 @@ impl Map {
         self.route.update(&self.cells, &self.near, pose);
     }
 
-    /// Marks the places where shafts touch, so that no way leads through them. A place in free ground is refuted.
+    /// Marks the positions where shafts touch, so that no path leads through them. A place in free ground is refuted.
     fn keep_shaft_contacts(&mut self) {
         for whisker in &self.whiskers {
             let Some(contact) = whisker.touch().and_then(Touch::steady_shaft) else { continue };

@@ -180,7 +180,7 @@ fn the_ground_before_a_touch_is_claimed_up_to_the_margin_and_not_beyond() {
     }
 }
 
-/// Straight ways without objects. The claim is the body's way and the whiskers' ways, less stated strips.
+/// Straight paths without objects. The claim is the body's path and the whiskers' paths, less stated strips.
 #[test]
 fn free_ground_grows_by_the_swept_width() {
     for (rig, name) in rigs().iter().zip(["reference", "thesis"]) {

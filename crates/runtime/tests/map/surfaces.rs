@@ -9,16 +9,16 @@ use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample, TrueTip};
 
 use super::certainty::map;
 
-/// Distance (m) of the told tip ahead of the body, about that of the tip of the straight whisker.
+/// Distance (m) of the reported tip ahead of the body, about that of the tip of the straight whisker.
 const AHEAD: f64 = 0.03;
 
-/// A perception that is told the true tips.
+/// A perception with true tips.
 fn told(rig: &Rig) -> Perception {
     let kinds = [ContactEstimatorKind::Truth; 2];
     Perception::new(rig, &[Some(0), Some(1)], &kinds).unwrap()
 }
 
-/// A body that goes along the x axis for `ticks`. Its right whisker follows a surface, with its tip told
+/// A body that goes along the x axis for `ticks`. Its right whisker follows a surface, with its tip reported
 /// by the place of the body (m).
 fn follow(map: &mut Map, rig: &Rig, ticks: u32, tip: impl Fn(f64) -> Option<Point2>) {
     let mut perception = told(rig);

@@ -156,7 +156,7 @@ fn distance(point: Point2, a: Point2, b: Point2) -> f64 {
     (point - (a + share * along)).norm()
 }
 
-/// Places of an object at which the displacement is looked at. Fewer of them only reduce base angles.
+/// Positions of an object at which the displacement is looked at. Fewer of them only reduce base angles.
 const PLACES: usize = 12;
 /// Share of the square of the displacement of a tip over the length by which the shaft is shorter.
 const SHORTENING: f64 = 0.6;
