@@ -1,8 +1,9 @@
-//! The controller: perception, machine and steering.
+//! The controller: perception, machine, steering, and a map if it is asked for.
 
 use std::sync::Arc;
 
 use crate::machine::{Machine, Observer, OnlySimulated, Program, Tick};
+use crate::map::{Map, MapError, MapSettings};
 use crate::math;
 use crate::motion::{ServoLead, Steering};
 use crate::percept::{Perception, PerceptionError};
@@ -21,6 +22,9 @@ pub enum BindError {
     /// The policy can only run in a simulator.
     #[error(transparent)]
     OnlySimulated(#[from] OnlySimulated),
+    /// The settings give no map.
+    #[error(transparent)]
+    Map(#[from] MapError),
 }
 
 /// Time (s) over which base angles and the pose are kept in ticks without a valid one, unless
@@ -34,6 +38,10 @@ pub struct Control {
     machine: Machine,
     steering: Steering,
     servo_lead: ServoLead,
+    /// The map, if there is one.
+    map: Option<Box<Map>>,
+    /// The command that holds until the next tick.
+    command: Command,
 }
 
 impl Control {
@@ -61,7 +69,21 @@ impl Control {
             steering: Steering::new(rig, &whiskers),
             servo_lead: ServoLead::new(rig),
             machine: Machine::new(program),
+            map: None,
+            command: Command::STOP,
         })
+    }
+
+    /// Adds a map of `rig`, which must be the one of this controller. Without a call there is none, and a tick costs no more
+    /// than before. The map never changes a command by itself.
+    ///
+    /// # Errors
+    /// [`BindError`] if the settings give no map.
+    pub fn with_map(mut self, rig: &Rig, settings: MapSettings) -> Result<Self, BindError> {
+        let program = self.machine.program();
+        let whiskers = rig.fitted(&program.whiskers, &program.optional)?;
+        self.map = Some(Box::new(Map::new(rig, &whiskers, settings)?));
+        Ok(self)
     }
 
     /// Keeps base angles and the pose over ticks without a valid one for this time (s), if it is longer than 0.1 s. After it
@@ -81,9 +103,13 @@ impl Control {
     pub fn tick_observed(&mut self, samples: &[Sample], observer: &mut impl Observer) -> (Command, Tick) {
         self.perception.update(samples);
         let tick = self.machine.tick_observed(&mut self.perception, observer);
+        // After the machine, which records tips.
+        if let Some(map) = &mut self.map {
+            map.update(&self.perception, self.perception.pose(), self.command);
+        }
         let command = self.steering.command(&tick.action, self.perception.pose_at_effect());
         let command = self.servo_lead.next(command, self.perception.servo());
-        self.perception.command(command);
+        self.replace_command(command);
         (command, tick)
     }
 
@@ -95,6 +121,7 @@ impl Control {
 
     /// Tells perception that the platform executes this command instead of that of the newest tick.
     pub fn replace_command(&mut self, command: Command) {
+        self.command = command;
         self.perception.command(command);
     }
 
@@ -102,6 +129,17 @@ impl Control {
     #[must_use]
     pub fn perception(&self) -> &Perception {
         &self.perception
+    }
+
+    /// The map of this controller, if it has one.
+    #[must_use]
+    pub fn map(&self) -> Option<&Map> {
+        self.map.as_deref()
+    }
+
+    /// The map of this controller, if it has one, to set a goal or to report a failure.
+    pub fn map_mut(&mut self) -> Option<&mut Map> {
+        self.map.as_deref_mut()
     }
 
     /// The machine of this controller.

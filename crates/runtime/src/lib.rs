@@ -54,6 +54,7 @@
 //! | description of the robot | [`rig`], [`calibration`] |
 //! | compiled policies | [`machine`] |
 //! | estimation of contacts | [`percept`], [`mechanics`] |
+//! | what is free, touched and unknown | [`map`] |
 //! | commands | [`motion`] |
 //! | basics | [`geometry`], [`math`], [`units`] |
 //!
@@ -64,6 +65,7 @@ pub mod calibration;
 pub mod control;
 pub mod geometry;
 pub mod machine;
+pub mod map;
 pub mod math;
 pub mod mechanics;
 pub mod motion;

@@ -28,7 +28,7 @@ pub(super) struct BaseAngle {
 }
 
 /// Standard deviation (rad) of effects outside of the model, such as vibrations of the shaft, as a base angle.
-pub(super) const MODEL_DEVIATION: f64 = 3e-7;
+pub(crate) const MODEL_DEVIATION: f64 = 3e-7;
 /// Standard deviation (rad) of the base angle up to which the line is lengthened.
 const WANTED_DEVIATION: f64 = 4.5e-7;
 /// Rate of the base angle (rad/s) above which the whisker is taken to move freely, and its standard deviations by which

@@ -33,11 +33,13 @@ mod tip_table;
 mod truth;
 mod whisker;
 
+pub(crate) use base_angle::MODEL_DEVIATION;
 pub use contact::Contact;
 pub use contact_estimator::ContactEstimator;
 pub use local_contour::LocalContour;
 pub use loop_watch::LoopWatch;
 pub use low_pass::{CutoffError, LowPass};
+pub(crate) use offsets::TOLERATED as TOLERATED_OFFSET;
 pub use perception::{Perception, PerceptionError};
 pub use pose_delay::Misfit;
 pub use tip_curve::{TipCurve, TipCurveError};

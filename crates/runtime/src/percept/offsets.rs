@@ -59,7 +59,7 @@ const MOST_BENT: f64 = 1.0;
 const GATE: f64 = 4.0;
 /// Offset (rad) that perception tolerates without a correction, and its standard deviations that make it significant. A
 /// whisker that swings after the start of the platform has errors that are alike for some ticks.
-const TOLERATED: f64 = 5e-7;
+pub(crate) const TOLERATED: f64 = 5e-7;
 const SIGNIFICANT: f64 = 6.0;
 
 const MICRO: f64 = 1e-6;

@@ -360,6 +360,52 @@ impl Perception {
         self.whiskers[whisker].base_angle()
     }
 
+    /// Largest magnitude (rad) of the base angles of a whisker in the samples of this tick, without the filter. `None` if one
+    /// of them is lost or has no pose, or if there is none.
+    #[must_use]
+    pub fn largest_reading(&self, whisker: usize) -> Option<f64> {
+        self.whiskers[whisker].largest_reading()
+    }
+
+    /// Mean base angle (rad) of a whisker over the samples of this tick, without the filter. `None` if there is none.
+    #[must_use]
+    pub fn mean_reading(&self, whisker: usize) -> Option<f64> {
+        self.whiskers[whisker].mean_reading()
+    }
+
+    /// Standard deviation (rad) of the noise of one reading of a whisker: the stated one, or the measured one if it is
+    /// significantly larger.
+    #[must_use]
+    pub fn reading_deviation(&self, whisker: usize) -> f64 {
+        self.whiskers[whisker].reading_deviation()
+    }
+
+    /// Standard deviations of the error of a measured pose: of each coordinate (m) and of the heading (rad). They are 0
+    /// unless they are significant or if they are not estimated.
+    #[must_use]
+    pub fn pose_deviation(&self) -> (f64, f64) {
+        let deviation = self.motions.as_deref().map(Motions::pose_deviation).unwrap_or_default();
+        (deviation.position, deviation.heading)
+    }
+
+    /// True if this tick has a measured pose, and not one that is kept from an earlier tick.
+    #[must_use]
+    pub fn has_measured_pose(&self) -> bool {
+        self.measured.is_finite()
+    }
+
+    /// True if something other than the whiskers prevents the body from following its commands.
+    #[must_use]
+    pub fn is_blocked(&self) -> bool {
+        self.disturbance.is_blocked()
+    }
+
+    /// True if the filtered base angle of a whisker exceeds the contact threshold.
+    #[must_use]
+    pub fn is_touching(&self, whisker: usize) -> bool {
+        self.whiskers[whisker].is_touching()
+    }
+
     /// The estimated contact of a whisker, if its contact estimator has one in this tick.
     #[must_use]
     pub fn contact(&self, whisker: usize) -> Option<&Contact> {

@@ -53,9 +53,12 @@ pub(super) struct PerceivedWhisker {
     /// Number of successive lost readings, and the largest one after which the contact is kept.
     lost: usize,
     bridged: usize,
-    /// Sum of the readings of this tick (rad) with their offset, and their number.
+    /// Sums of the readings of this tick (rad) with and without their offset, and their number.
     sum: f64,
+    corrected_sum: f64,
     count: usize,
+    /// True if a reading of this tick is lost.
+    has_lost: bool,
     /// Largest magnitude of a base angle (rad) in this tick.
     largest: f64,
     /// Number of readings in ticks since the whisker touched, and the number after which it is at rest.
@@ -102,7 +105,9 @@ impl PerceivedWhisker {
             lost: 0,
             bridged: if sensing.estimation.lost_readings { samples(BRIDGED, sensing) } else { 0 },
             sum: 0.0,
+            corrected_sum: 0.0,
             count: 0,
+            has_lost: false,
             largest: 0.0,
             free_for: samples(SETTLED, sensing),
             settled_after: samples(SETTLED, sensing),
@@ -139,7 +144,7 @@ impl PerceivedWhisker {
     /// Begins a tick. Its readings follow.
     pub(super) fn begin(&mut self) {
         self.base_angle.begin();
-        (self.sum, self.count, self.largest) = (0.0, 0, 0.0);
+        (self.sum, self.corrected_sum, self.count, self.largest, self.has_lost) = (0.0, 0.0, 0, 0.0, false);
     }
 
     /// Adds a reading with this `offset` (rad) beyond that of the calibration, sampled with the platform at `body`.
@@ -151,6 +156,7 @@ impl PerceivedWhisker {
         let is_valid = base_angle.abs() <= GREATEST_ANGLE;
         if is_valid {
             self.sum += measured;
+            self.corrected_sum += base_angle;
             self.count += 1;
             self.largest = math::max(self.largest, base_angle.abs());
         }
@@ -164,11 +170,28 @@ impl PerceivedWhisker {
             self.estimator.take(&Reading { base_angle, ..*reading }, self.base(body));
             return self.estimator.misfit();
         }
+        self.has_lost = true;
         self.lost = self.lost.saturating_add(1);
         if self.lost > self.bridged {
             self.estimator.interrupt();
         }
         None
+    }
+
+    /// Largest magnitude (rad) of the readings of this tick, without the filter. `None` if one of them is lost or there is
+    /// none.
+    pub(super) fn largest_reading(&self) -> Option<f64> {
+        (self.count > 0 && !self.has_lost).then_some(self.largest)
+    }
+
+    /// Mean reading (rad) of this tick, without the filter. `None` if there is none.
+    pub(super) fn mean_reading(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.corrected_sum / self.count as f64)
+    }
+
+    /// Standard deviation (rad) of the noise of a reading.
+    pub(super) fn reading_deviation(&self) -> f64 {
+        self.used_noise
     }
 
     /// The mean reading of this tick, with the base angle that is calculated for this `acceleration` of the platform.

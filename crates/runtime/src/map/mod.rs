@@ -1,0 +1,36 @@
+//! A map by touch: which positions are proved free, which are surface, and which are unknown.
+//!
+//! Objects are taken as static, and poses as known up to a bound. `docs/map.md` of the repository derives the margins.
+
+mod bits;
+mod cells;
+mod clearance;
+mod contour_ends;
+mod contours;
+mod first_touch;
+mod frontier;
+mod grid;
+mod lattice;
+mod mapped_whisker;
+mod margins;
+mod polygon;
+mod queries;
+mod route;
+mod route_search;
+mod settings;
+mod shaft_contact;
+mod shaft_sweep;
+mod targets;
+mod touch_map;
+
+pub use cells::Cell;
+pub use clearance::Ground;
+pub use contour_ends::{ContourEnd, EndKind};
+pub use contours::ContourPoint;
+pub use first_touch::FirstTouch;
+pub use route::{RouteStatus, RouteStep};
+pub use route_search::{Pace, RouteError};
+pub use settings::{MapError, MapSettings};
+pub use shaft_contact::ShaftContact;
+pub use targets::{Target, TargetKind};
+pub use touch_map::Map;

@@ -1,0 +1,351 @@
+//! What to touch next.
+
+use crate::geometry::{Point2, Pose, Vector2, perpendicular, turn_between};
+use crate::math;
+use crate::rig::Whisker;
+
+use super::cells::Cells;
+use super::clearance::{Ground, NearSurfaces};
+use super::contour_ends::{ContourEnd, ContourEnds, EndKind};
+use super::contours::Contours;
+use super::frontier::Frontier;
+use super::lattice::Lattice;
+use super::route_search::Pace;
+
+/// Why a place should be touched, the most urgent first. A value by area over time alone would leave an object for empty ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TargetKind {
+    /// An open end of a contour.
+    OpenEnd,
+    /// A gap between two parts of contours.
+    Gap,
+    /// A shaft has touched there, and no tip has followed the surface.
+    Untraced,
+    /// Unknown ground beside free ground.
+    Frontier,
+}
+
+/// A place that should be touched or looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Why.
+    pub kind: TargetKind,
+    /// The place (m, world frame).
+    pub place: Point2,
+    /// Unit vector (world frame) from the place to free ground.
+    pub normal: Vector2,
+    /// Index in the policy of the whisker that can do it.
+    pub whisker: usize,
+    /// The pose of the body from which it begins. The straight tip is then before the place.
+    pub pose: Pose,
+    /// Newly seen area over time (m²/s).
+    pub value: f64,
+    /// Number of the end of a contour.
+    end: Option<usize>,
+}
+
+/// Distance (m) of a straight tip before a surface from which a touch begins, and the length (m) of known contour that it touches
+/// before an end.
+const BEFORE: f64 = 8e-3;
+const OVERLAP: f64 = 12e-3;
+/// Distance (m) by which a tip enters unknown ground.
+const BEYOND: f64 = 10e-3;
+/// Time (s) that any target takes besides the path.
+const BASE_TIME: f64 = 2.0;
+/// Factor by which the value of another target of the same kind must be larger.
+const BETTER: f64 = 1.5;
+/// Failures after which an end is closed.
+const FAILURES: u8 = 3;
+/// Most blocks of the frontier for which poses are tried in a tick, and the headings for each whisker.
+const TRIED: usize = 1;
+const HEADINGS: usize = 8;
+/// Positions where shafts have touched that are remembered, and their least distance (m).
+const PLACES: usize = 64;
+const APART: f64 = 10e-3;
+
+/// A whisker that targets are for.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    index: usize,
+    side: f64,
+    /// Straight tip (m, body frame), mounting direction and the usual direction of a surface's normal (rad).
+    tip_body: Vector2,
+    direction_body: f64,
+    usual_normal: f64,
+}
+
+/// The choice of targets.
+#[derive(Debug, Clone)]
+pub(super) struct Targets {
+    whiskers: Vec<Candidate>,
+    pace: Pace,
+    /// Blocks within which a touch sees something new.
+    reach: i32,
+    block: f64,
+    failures: Vec<u8>,
+    /// Positions and normals where shafts have touched.
+    touched: Vec<(Point2, Vector2)>,
+    /// The best of this pass so far, and the target.
+    best: Option<Target>,
+    current: Option<Target>,
+    /// True if the last whole pass found nothing.
+    is_empty: bool,
+    /// True if a target has failed in this pass.
+    is_disturbed: bool,
+    next_end: usize,
+}
+
+/// Ends that are valued in a tick.
+const ENDS: usize = 16;
+
+/// What targets depend on.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'m> {
+    pub(super) cells: &'m Cells,
+    pub(super) near: &'m NearSurfaces,
+    pub(super) lattice: &'m Lattice,
+    pub(super) contours: &'m Contours,
+    pub(super) ends: &'m ContourEnds,
+    pub(super) body: Pose,
+}
+
+impl Targets {
+    /// Creates the choice for whiskers with their indices in the policy.
+    pub(super) fn new<'w>(
+        whiskers: impl Iterator<Item = (usize, &'w Whisker)>,
+        pace: Pace,
+        block: f64,
+        ends: usize,
+    ) -> Self {
+        let mut longest = 0.0;
+        let whiskers = whiskers.map(|(index, whisker)| {
+            longest = math::max(longest, whisker.shaft.length);
+            let base = whisker.base_pose();
+            Candidate {
+                index,
+                side: whisker.side(),
+                tip_body: base.point_to_world(Point2::new(whisker.shaft.length, 0.0)).coords,
+                direction_body: whisker.direction_body,
+                usual_normal: whisker.usual_normal(),
+            }
+        });
+        let whiskers = whiskers.collect();
+        #[expect(clippy::cast_possible_truncation, reason = "a small count")]
+        let reach = (0.5 * longest / block).ceil().clamp(1.0, 8.0) as i32;
+        Self {
+            whiskers,
+            pace,
+            reach,
+            block,
+            failures: vec![0; ends],
+            touched: Vec::with_capacity(PLACES),
+            best: None,
+            current: None,
+            is_empty: false,
+            is_disturbed: false,
+            next_end: 0,
+        }
+    }
+
+    /// The target.
+    pub(super) fn current(&self) -> Option<&Target> {
+        self.current.as_ref()
+    }
+
+    /// True if the last whole pass found no target.
+    pub(super) fn is_complete(&self) -> bool {
+        self.is_empty && self.current.is_none()
+    }
+
+    /// Remembers a place where a shaft touches.
+    pub(super) fn touch(&mut self, place: Point2, normal: Vector2) {
+        let is_known = self.touched.iter().any(|(known, _)| (known - place).norm() < APART);
+        if !is_known && self.touched.len() < PLACES {
+            self.touched.push((place, normal));
+        }
+    }
+
+    /// Counts a failure of the target. After three an end or a place is closed.
+    pub(super) fn fail(&mut self, frontier: &mut Frontier, grid: super::grid::Grid) {
+        let Some(target) = self.current.take() else { return };
+        // This pass may have found it again, or may have passed over others because of it.
+        self.best = self.best.filter(|best| best.end != target.end || best.place != target.place);
+        self.is_disturbed = true;
+        if let Some(end) = target.end {
+            self.failures[end] = self.failures[end].saturating_add(1);
+            return;
+        }
+        if let Some(block) = Frontier::block_at(grid, target.place) {
+            frontier.fail(block);
+        }
+        self.touched.retain(|(place, _)| (place - target.place).norm() > APART);
+    }
+
+    /// Continues the pass through all possible targets.
+    pub(super) fn update(&mut self, known: Known<'_>, frontier: &mut Frontier) {
+        self.value_ends(known, frontier);
+        let mut tried = 0;
+        let mut best = self.best.take();
+        let is_end = frontier.update(known.cells, |frontier, block| {
+            let place = Frontier::centre(known.cells.grid, block);
+            let seen = f64::from(frontier.unknown_around(block, self.reach)) * math::square(self.block);
+            let way = (place - known.body.position).norm() / self.pace.proved.0;
+            let value = seen / (BASE_TIME + way);
+            let is_better = best.is_none_or(|best: Target| best.kind == TargetKind::Frontier && value > best.value);
+            if is_better && tried < TRIED {
+                tried += 1;
+                if let Some(target) = self.looking(known, frontier, block, seen) {
+                    best = Some(better(best, target));
+                }
+            }
+        });
+        self.best = best;
+        if is_end {
+            self.value_touched(known, frontier);
+            let best = self.best.take();
+            self.is_empty = best.is_none() && !std::mem::take(&mut self.is_disturbed);
+            self.choose(best, known, frontier);
+        }
+    }
+
+    /// Takes the best target of a pass, unless the current one is still about as good.
+    fn choose(&mut self, best: Option<Target>, known: Known<'_>, frontier: &Frontier) {
+        let kept = self.current.filter(|current| self.is_valid(current, known, frontier));
+        self.current = match (kept, best) {
+            (Some(kept), Some(best)) if best.kind < kept.kind => Some(best),
+            (Some(kept), Some(best)) if best.kind == kept.kind && best.value > BETTER * kept.value => Some(best),
+            (Some(kept), _) => Some(kept),
+            (None, best) => best,
+        };
+    }
+
+    /// True if a target is still one.
+    fn is_valid(&self, target: &Target, known: Known<'_>, frontier: &Frontier) -> bool {
+        if known.lattice.ground_between(known.cells, known.near, target.pose, target.pose) == Ground::Blocked {
+            return false;
+        }
+        match (target.kind, target.end) {
+            (TargetKind::Frontier, _) => Frontier::block_at(known.cells.grid, target.place)
+                .is_some_and(|(column, row)| frontier.is_frontier(column, row)),
+            (TargetKind::Untraced, _) => self.touched.iter().any(|(place, _)| (place - target.place).norm() < APART),
+            (_, Some(end)) => known.ends.ends(known.contours).any(|(number, found)| {
+                number == end && found.kind != EndKind::Joined && (found.place - target.place).norm() < OVERLAP
+            }),
+            (_, None) => false,
+        }
+    }
+
+    /// Values some ends of contours.
+    fn value_ends(&mut self, known: Known<'_>, frontier: &Frontier) {
+        let (mut count, mut best) = (0, self.best.take());
+        for (number, end) in known.ends.ends(known.contours).skip(self.next_end).take(ENDS) {
+            count += 1;
+            let is_open =
+                end.kind != EndKind::Joined && self.failures.get(number).is_some_and(|count| *count < FAILURES);
+            if is_open && let Some(target) = self.following(known, frontier, number, &end) {
+                best = Some(better(best, target));
+            }
+        }
+        self.next_end = if count < ENDS { 0 } else { self.next_end + count };
+        self.best = best;
+    }
+
+    /// Values the positions where shafts have touched, and forgets those that a contour has reached.
+    fn value_touched(&mut self, known: Known<'_>, frontier: &Frontier) {
+        self.touched
+            .retain(|(place, _)| !known.contours.points().iter().any(|point| (point.place - place).norm() < APART));
+        for index in 0..self.touched.len() {
+            let (place, normal) = self.touched[index];
+            let target = self.whiskers.iter().filter_map(|whisker| {
+                self.touching(known, frontier, whisker, TargetKind::Untraced, (place, normal), place)
+            });
+            self.best = target.fold(self.best, |best, target| Some(better(best, target)));
+        }
+    }
+
+    /// A target that follows a contour beyond its end.
+    fn following(&self, known: Known<'_>, frontier: &Frontier, number: usize, end: &ContourEnd) -> Option<Target> {
+        let kind = if end.kind == EndKind::Open { TargetKind::OpenEnd } else { TargetKind::Gap };
+        // The body goes along the contour with the surface on one side.
+        let side = -perpendicular(end.outwards).dot(&end.normal).signum();
+        let touched = end.place - OVERLAP * end.outwards;
+        let whiskers = self.whiskers.iter().filter(|whisker| whisker.side * side > 0.0);
+        let target = whiskers
+            .filter_map(|whisker| self.touching(known, frontier, whisker, kind, (end.place, end.normal), touched))
+            .max_by(|a, b| a.value.total_cmp(&b.value))?;
+        Some(Target { end: Some(number), ..target })
+    }
+
+    /// A target whose whisker touches the surface at `touched` in its usual posture.
+    fn touching(
+        &self,
+        known: Known<'_>,
+        frontier: &Frontier,
+        whisker: &Candidate,
+        kind: TargetKind,
+        (place, normal): (Point2, Vector2),
+        touched: Point2,
+    ) -> Option<Target> {
+        let heading = math::atan2(normal.y, normal.x) - whisker.direction_body - whisker.side * whisker.usual_normal;
+        let tip = touched + BEFORE * normal;
+        let pose = with_tip(whisker, tip, heading);
+        let seen =
+            Frontier::block_at(known.cells.grid, place).map_or(0, |block| frontier.unknown_around(block, self.reach));
+        let seen = math::max(f64::from(seen), 1.0) * math::square(self.block);
+        self.rated(known, Target { kind, place, normal, whisker: whisker.index, pose, value: seen, end: None })
+    }
+
+    /// A target that looks at a block of the frontier.
+    fn looking(&self, known: Known<'_>, frontier: &Frontier, block: (i32, i32), seen: f64) -> Option<Target> {
+        use super::frontier::Block;
+        let place = Frontier::centre(known.cells.grid, block);
+        // Towards the free blocks beside it.
+        let free = [(1, 0), (-1, 0), (0, 1), (0, -1)]
+            .into_iter()
+            .filter(|(x, y)| frontier.get(block.0 + x, block.1 + y) == Block::Free);
+        let normal = free.map(|(x, y)| Vector2::new(f64::from(x), f64::from(y))).sum::<Vector2>();
+        let normal = normal.try_normalize(0.5).unwrap_or_else(|| Vector2::new(1.0, 0.0));
+        let tip = place - BEYOND * normal;
+        let poses = self.whiskers.iter().flat_map(|whisker| {
+            (0..HEADINGS).map(move |index| {
+                let heading = std::f64::consts::TAU * index as f64 / HEADINGS as f64;
+                (whisker.index, with_tip(whisker, tip, heading))
+            })
+        });
+        let target = |(whisker, pose)| Target {
+            kind: TargetKind::Frontier,
+            place,
+            normal,
+            whisker,
+            pose,
+            value: seen,
+            end: None,
+        };
+        poses.filter_map(|pose| self.rated(known, target(pose))).max_by(|a, b| a.value.total_cmp(&b.value))
+    }
+
+    /// A target whose value is its newly seen area, with that over the time. `None` if its pose is blocked, or in ground near
+    /// surfaces that the pace forbids for a look.
+    fn rated(&self, known: Known<'_>, target: Target) -> Option<Target> {
+        let ground = known.lattice.ground_between(known.cells, known.near, target.pose, target.pose);
+        let is_allowed = match ground {
+            Ground::Proved | Ground::Unknown => true,
+            Ground::NearSurface => target.kind != TargetKind::Frontier || self.pace.near_surface.0 > 0.0,
+            Ground::Blocked => false,
+        };
+        let way = (target.pose.position - known.body.position).norm() / self.pace.proved.0;
+        let turn = turn_between(known.body.heading, target.pose.heading).abs() / self.pace.proved.1;
+        is_allowed.then_some(Target { value: target.value / (BASE_TIME + way + turn), ..target })
+    }
+}
+
+/// The pose of the body with a heading (rad) whose straight whisker has its tip at a place (m, world frame).
+fn with_tip(whisker: &Candidate, tip: Point2, heading: f64) -> Pose {
+    let pose = Pose { position: tip, heading };
+    Pose { position: tip - pose.vector_to_world(whisker.tip_body), heading }
+}
+
+/// The better of two targets.
+fn better(best: Option<Target>, other: Target) -> Target {
+    best.filter(|best| (best.kind, -best.value) <= (other.kind, -other.value)).unwrap_or(other)
+}
