@@ -3,7 +3,7 @@
 //! - `grammar` parses a text with pest (`grammar/fsm.pest`). `word` has the words of the language, from which all lists of
 //!   words follow.
 //! - `parse_tree` stores the result in a flat list with all tokens. `token` reads them with comments, blanks and line ends.
-//! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors. `scan` finds the places for that.
+//! - `parse` builds the syntax tree of `ast`. `recover` continues after syntax errors. `scan` finds where to.
 //! - `expand` copies behaviours into the states that use them.
 //! - `lower` checks names, types and units, and generates code.
 //! - `analysis` finds probable mistakes in the tree and the code.

@@ -1,4 +1,4 @@
-//! The figures of a run: their names, units, meanings and places. `lab` computes their values.
+//! The figures of a run: their names, units, meanings, and where they are shown. `lab` computes their values.
 
 mod figure;
 mod group;
