@@ -3,6 +3,8 @@
 //! It keeps all tokens of the tree, including comments, in their order. The beginnings of statements come from the tree,
 //! so a new construct needs no change here. A statement that the author broke stays broken. A block
 //! on one line stays there if it fits. Everything else follows from the tokens alone, so formatting is idempotent.
+//!
+//! Why: docs/decisions/editors.md#the-formatter-works-on-tokens.
 
 mod align;
 mod line;
