@@ -1,6 +1,8 @@
 //! Access to files: bounded reading of regular files, identities, atomic writing.
 //!
 //! No other code opens a file. `clippy.toml` forbids it.
+//!
+//! Why: docs/decisions/files.md#only-file-opens-files.
 #![expect(clippy::disallowed_methods, reason = "this module opens all files")]
 
 mod cache;

@@ -1,4 +1,6 @@
 //! The arrangement of outlines: their parts between intersections, and the outer boundary.
+//!
+//! Why: docs/decisions/scenes.md#unions-of-outlines-are-exact.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};

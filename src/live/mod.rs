@@ -2,6 +2,8 @@
 //!
 //! A [`Live`] serves the page and its stream. A [`LiveWatcher`] passes the ticks of a run on to it. The run never waits for a viewer.
 //! It waits only for its pace, and where a user has paused it.
+//!
+//! Why: docs/decisions/recordings.md#the-live-page-is-served-by-threads-from-copies-of-the-control-loop.
 
 mod change;
 mod client;

@@ -1,4 +1,6 @@
 //! Broad phase: the pairs of geoms that MuJoCo tests for contact.
+//!
+//! Why: docs/decisions/mujoco-speed.md#near-pairs-are-updated-during-the-run.
 
 use super::Reach;
 use crate::geometry::Pose;

@@ -3,6 +3,8 @@
 //! mujoco-rs declares MuJoCo's functions as symbols for the linker. This module defines all symbols that the program
 //! uses. The linker then needs nothing from the library, and the loader does not search it at the start of the program.
 //! Each definition forwards its call to the function of the same name in the library.
+//!
+//! Why: docs/decisions/mujoco.md#mujocos-library-is-loaded-on-first-use.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::error::Error as _;

@@ -92,7 +92,7 @@ fn write_model(
     writeln!(xml, r#"<mujoco model="vibrissa">"#)?;
     writeln!(xml, r#"  <compiler angle="radian" autolimits="true" inertiafromgeom="false" usethread="false"/>"#)?;
     // With a pyramidal friction cone, a tip that slides with a small coefficient vibrates; with an elliptic cone it does
-    // not. Decision 0049 compares the solvers.
+    // not. docs/decisions/mujoco.md#the-contact-solver-is-projected-gauss-seidel-without-islands compares the solvers.
     writeln!(
         xml,
         r#"  <option timestep="{}" integrator="{}" solver="{}" cone="elliptic"{}{} gravity="0 0 {}" jacobian="dense">"#,

@@ -3,6 +3,8 @@
 //! The erroneous part is overwritten with blanks, so all positions stay valid. Then the rest is parsed again. First the
 //! statement is overwritten, and if the error remains, the whole item. The number of attempts is bounded, and each
 //! takes time linear in the text.
+//!
+//! Why: docs/decisions/editors.md#syntax-errors-are-blanked-out.
 
 use std::borrow::Cow;
 use std::collections::HashSet;

@@ -1,4 +1,6 @@
 //! Newton steps towards the static equilibrium of a whisker among obstacles.
+//!
+//! Why: docs/decisions/quasi-static.md#one-solver-serves-all-contacts.
 
 use crate::geometry::{Vector2, perpendicular};
 

@@ -1,4 +1,6 @@
 //! Coulomb friction of a contact.
+//!
+//! Why: docs/decisions/quasi-static.md#quasi-static-friction-is-an-active-set-of-cone-edges.
 
 use crate::geometry::{Point2, Vector2};
 

@@ -1,4 +1,6 @@
 //! Limits for all objects of a scenario together.
+//!
+//! Why: docs/decisions/scenes.md#limits-are-checked-before-the-work.
 
 use crate::outline::{MAX_PIECES, SIZE_LIMIT};
 

@@ -2,6 +2,8 @@
 //!
 //! A [`Film`] watches a run. After the run, a [`Studio`] draws its frames and encodes them. So drawing changes neither
 //! the results of a run nor its measured times.
+//!
+//! Why: docs/decisions/reports.md#videos-are-drawn-after-the-run-from-postures.
 
 #[cfg(feature = "render")]
 mod encoder;

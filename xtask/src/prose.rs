@@ -294,7 +294,7 @@ mod tests {
         let found = |name: &str, text: &str| Page::new(text).findings(name);
         assert!(found("docs/bench.md", &table)[0].starts_with("docs/bench.md:3: a table with 8 measured"));
         assert!(found("docs/results/bench.md", &table).is_empty() && found("README.md", &table).is_empty());
-        assert!(found("docs/decisions/0001.md", &table).is_empty());
+        assert!(found("docs/decisions/files.md", &table).is_empty());
         let small = table.replace(row, "| disk | 0.072 | a |\n");
         assert!(found("docs/bench.md", &format!("{small}{small}")).is_empty(), "two tables are not one");
         let keys = "| `step` | `0.5556 ms` | from 0.1 ms to 33.3 ms | 10 | 0.5 of the length |\n".repeat(9);

@@ -10,6 +10,8 @@
 //! use vibrissa_runtime::math;
 //! assert_eq!(math::sin(1.0).to_bits(), 0x3fea_ed54_8f09_0cee);
 //! ```
+//!
+//! Why: docs/decisions/same-bits.md#commands-have-the-same-bits-on-every-target.
 
 /// The sine of an angle (rad).
 #[must_use]

@@ -1,4 +1,6 @@
 //! Pruning: the omission of parts of a model that cannot affect the run.
+//!
+//! Why: docs/decisions/mujoco-speed.md#pruning-is-exact-or-it-is-a-setting.
 
 mod pruning;
 mod reach;

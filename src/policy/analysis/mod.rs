@@ -4,6 +4,8 @@
 //! (`bounds`) in regions of all inputs (`region`). Regions are narrowed by backward analysis (`narrow`) and split until
 //! there is a proof or a witness (`search`). The machine's own evaluator confirms each witness. Each of the other
 //! modules implements one kind of warning.
+//!
+//! Why: docs/decisions/compiler.md#warnings-are-proved-or-witnessed.
 
 mod arithmetic;
 mod bounds;

@@ -3,6 +3,8 @@
 //! It works on tokens and keeps all of them, including comments, in their order. Only the beginnings of statements come
 //! from the grammar, so a new construct needs no change here. A statement that the author broke stays broken. A block
 //! on one line stays there if it fits. Everything else follows from the tokens alone, so formatting is idempotent.
+//!
+//! Why: docs/decisions/editors.md#the-formatter-works-on-tokens.
 
 mod align;
 mod line;

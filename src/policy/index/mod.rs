@@ -4,6 +4,8 @@
 //! adds the names of other files. `resolve` finds the meaning of each word. All of them work on tokens, so an error
 //! hides nothing but itself. Only the types of derived and local values come from the compiler. If it cannot determine
 //! one, the type comes from the previous index.
+//!
+//! Why: docs/decisions/editors.md#the-index-for-editors-reads-tokens.
 
 mod applied;
 mod candidate;

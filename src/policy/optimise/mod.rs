@@ -6,6 +6,8 @@
 //!
 //! All passes rely on two properties. Jumps lead forward within their block, so a walk from its start sees every write
 //! before the reads that it can reach. No register is read before the code to which it belongs has written it.
+//!
+//! Why: docs/decisions/compiler.md#the-optimiser-keeps-results-bit-identical.
 
 mod common_subexpression;
 mod dead_code;

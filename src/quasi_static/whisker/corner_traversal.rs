@@ -1,4 +1,6 @@
 //! Tests of whiskers that traverse corners: no whisker passes through an obstacle.
+//!
+//! Why: docs/decisions/quasi-static.md#corner-traversal-remembers-the-side-of-a-shaft.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

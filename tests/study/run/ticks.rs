@@ -88,7 +88,7 @@ fn a_tick_has_the_margin_of_its_inclination() {
     assert!((sum - FRAC_PI_2 - FRICTION.atan()).abs() < 1e-12, "{sum}");
 }
 
-/// The law of record 0142 in a whole run: where, when and in which state its margin is least, and who breaks it.
+/// The limit of the inclination in a whole run: where, when and in which state its margin is least, and who breaks it.
 #[test]
 fn a_result_has_the_least_margin_and_the_states_beyond_the_limit() {
     let mut run = run();

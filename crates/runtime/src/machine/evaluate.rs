@@ -1,4 +1,6 @@
 //! The evaluator: runs a block of code over the registers.
+//!
+//! Why: docs/decisions/machine.md#the-evaluator-is-an-optimised-interpreter.
 
 use std::cmp::Ordering;
 

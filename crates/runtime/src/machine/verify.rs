@@ -1,4 +1,6 @@
 //! Verification of programs from untrusted sources.
+//!
+//! Why: docs/decisions/machine.md#artifacts-are-verified-at-every-load.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,6 @@
 //! Pose hold: keeping the pose at which the platform has stopped.
+//!
+//! Why: docs/decisions/motion.md#a-stop-holds-the-pose.
 
 use crate::geometry::{Pose, Vector2, turn_between};
 use crate::math;

@@ -1,4 +1,6 @@
 //! Detection of a blocked body.
+//!
+//! Why: docs/decisions/readings.md#a-blocked-body-is-detected-by-odometry.
 
 use crate::geometry::{Point2, Pose, perpendicular, turn_between};
 use crate::math;

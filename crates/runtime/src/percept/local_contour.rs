@@ -1,4 +1,6 @@
 //! The local contour behind a tip.
+//!
+//! Why: docs/decisions/local-contour.md#the-local-contour-is-a-parabola-not-a-b-spline.
 
 use nalgebra::{Matrix3, Vector3};
 

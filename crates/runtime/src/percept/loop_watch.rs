@@ -1,4 +1,6 @@
 //! Detection of a closed loop.
+//!
+//! Why: docs/decisions/scores.md#loops-close-on-estimates-verdicts-on-exact-geometry.
 
 use std::f64::consts::PI;
 

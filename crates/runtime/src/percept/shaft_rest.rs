@@ -1,4 +1,6 @@
 //! Detection of shaft contacts where a tip contact is assumed.
+//!
+//! Why: docs/decisions/recorded-tips.md#a-tip-is-not-recorded-while-the-shaft-may-touch.
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, unit, wrap};
 use crate::math;

@@ -1,4 +1,6 @@
 //! The contact estimator `sliding`.
+//!
+//! Why: docs/decisions/contact-estimators.md#the-sliding-contact-is-tracked-by-a-kalman-filter.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;

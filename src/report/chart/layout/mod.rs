@@ -1,5 +1,7 @@
 //! A layered layout after Sugiyama, Tagawa and Toda (1981). Every arrow leads from layer to layer. Its label is in a
 //! layer of labels between them, like a node. Therefore no two elements overlap.
+//!
+//! Why: docs/decisions/reports.md#the-statechart-layout-is-our-own.
 
 mod net;
 mod order;
