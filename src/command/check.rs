@@ -172,9 +172,12 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<Exit, Failure> {
     let checked = arguments.policies.iter().map(|path| {
         check_one(path, &mut files, arguments.json).or_else(|failure| match failure {
             // After an error in one file, the other files are still checked.
-            Failure::Load(LoadError::Read { .. } | LoadError::Name { .. } | LoadError::Artifact { .. }) => {
-                Ok(unreadable(path, &failure, arguments.json))
-            }
+            Failure::Load(
+                LoadError::Read { .. }
+                | LoadError::Missing { .. }
+                | LoadError::Name { .. }
+                | LoadError::Artifact { .. },
+            ) => Ok(unreadable(path, &failure, arguments.json)),
             other => Err(other),
         })
     });

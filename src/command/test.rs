@@ -279,7 +279,7 @@ fn trial_of(
 ) -> Result<Trial, Failure> {
     let path = policy.parent().unwrap_or(Path::new("")).join(file);
     let Loaded { value: mut scene, mut hash } = load::scenario(&path, files).map_err(|failure| match failure {
-        LoadError::Read { cause, .. } => {
+        LoadError::Read { cause, .. } | LoadError::Missing { cause, .. } => {
             let message = format!("cannot read {}: {cause}", path.display());
             let fault = Diagnostic::error("P0702", message, span, "this scenario")
                 .hint("a path starts from the folder of the policy");

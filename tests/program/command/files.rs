@@ -95,7 +95,7 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ("bench --policy @/quick.fsm --world quasistatic --out @", "laws.fsm", "results.json", "--out"),
     ("bench --policy @/quick.fsm --world quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
     ("run @/scene.yaml --out @", "quick.fsm", "index.html", "--out"),
-    ("compare @/quick.fsm @/laws.fsm @/scene.yaml --out @", "scene.yaml", "results.json", "--out"),
+    ("compare @/quick.fsm policies/thesis.fsm @/scene.yaml --out @", "scene.yaml", "results.json", "--out"),
     (
         "families polygon --count 1 --policy @/quick.fsm --world quasistatic --out @",
         "laws.fsm",

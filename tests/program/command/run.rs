@@ -154,7 +154,7 @@ mod with_simulation {
     }
 
     /// The keys of a result that are neither figures nor groups of them.
-    const KEYS: [&str; 61] = [
+    const KEYS: [&str; 64] = [
         "passed_but_for_tips",
         "violations",
         "whiskers",
@@ -166,6 +166,9 @@ mod with_simulation {
         "provenance.simulators",
         "provenance.scenes",
         "provenance.policies",
+        "provenance.hashes",
+        "provenance.hashes.policies",
+        "provenance.hashes.scenarios",
         "provenance.seeds",
         "provenance.jitter",
         "provenance.mismatches",
