@@ -68,7 +68,7 @@ impl Index {
     ///
     /// # Errors
     /// The name cannot be changed, or its meaning is not certain.
-    pub(crate) fn renamable(&self, at: usize) -> Result<Span, RenameError> {
+    pub fn renamable(&self, at: usize) -> Result<Span, RenameError> {
         self.to_rename(at).map(|(span, _)| span)
     }
 
