@@ -1,7 +1,7 @@
 //! Texts of users: errors with their positions, and files.
 //!
 //! - [`diagnostic`] has one type for errors and warnings in texts, and its renderings.
-//! - [`file`] opens every file: it refuses what would block, bounds what is read, and replaces a file as a whole or not at all.
+//! - [`mod@file`] opens every file: it refuses what would block, bounds what is read, and replaces a file as a whole or not at all.
 
 pub mod diagnostic;
 pub mod file;
