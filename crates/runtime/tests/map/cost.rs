@@ -1,4 +1,4 @@
-//! A search for a route is spread over ticks. The time of a tick is printed, because a limit on it would depend on the computer.
+//! A search for a route takes many ticks. The time of a tick is printed, because a limit on it would depend on the computer.
 
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ const TICKS: u32 = 1500;
 const RUNS: usize = 3;
 
 #[test]
-fn a_long_search_is_spread_over_many_ticks() {
+fn a_long_search_takes_many_ticks() {
     for (name, mut rig) in [("reference", Rig::default()), ("thesis", Rig::thesis_array())] {
         rig.sensing.make_real();
         let mut least = vec![f64::INFINITY; TICKS as usize];
