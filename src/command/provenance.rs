@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn a_repeated_command_writes_beside_the_outputs_of_the_first_one() {
-        for given in [&["--out", "/tmp/first"][..], &["-o", "/tmp/first"], &["--out=/tmp/first"]] {
+        for given in [&["--out", "a/first"][..], &["-o", "a/first"], &["--out=a/first"]] {
             let shown = shown(&[&["bench"], given].concat());
             assert!(!shown.contains("first") && shown.contains(REPEATED), "{shown}");
         }
