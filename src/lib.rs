@@ -112,7 +112,7 @@ pub mod services;
 #[cfg(any(feature = "render", feature = "viewer"))]
 pub mod video;
 
-pub use vibrissa_declare::{catalogue, figures};
+pub use vibrissa_declare::{catalogue, figures, rig};
 #[cfg(feature = "recording")]
 pub use vibrissa_lab::recording;
 pub use vibrissa_lab::{

@@ -237,7 +237,9 @@ fn tables(result: &DriveResult) -> Vec<Table> {
 /// Reads a configuration. The result has its text too.
 pub(super) fn config(path: &Path, files: &mut CommandFiles) -> Result<(Config, String), Failure> {
     let text = load::read(path, files)?.text;
-    let config = Config::from_text(&text).map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
+    let mut calibration = |name: &str| load::outline_file(&load::beside(path, name), files);
+    let config = Config::from_text_with(&text, &mut calibration)
+        .map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
     Ok((config, text))
 }
 

@@ -117,6 +117,8 @@ const CHECKS: [Check; 21] = [
             "--package",
             "vibrissa-text",
             "--package",
+            "vibrissa-yaml",
+            "--package",
             "vibrissa-language",
             "--package",
             "vibrissa-world",

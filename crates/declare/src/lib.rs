@@ -2,7 +2,12 @@
 //!
 //! - [`catalogue`] names the families of scenes and their parameters.
 //! - [`figures`] declares the figures of a run.
+//! - [`rig`] has the keys of a rig, and [`mismatch`] those in which the true array may differ.
+//! - [`physics`] has the settings of a simulation, and the predefined rigs.
 
 #[expect(missing_docs, reason = "the meaning of a parameter is a part of its value")]
 pub mod catalogue;
 pub mod figures;
+pub mod mismatch;
+pub mod physics;
+pub mod rig;

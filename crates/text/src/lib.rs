@@ -4,4 +4,5 @@
 //! - [`mod@file`] opens every file: it refuses what would block, bounds what is read, and replaces a file as a whole or not at all.
 
 pub mod diagnostic;
+#[cfg(feature = "files")]
 pub mod file;

@@ -9,9 +9,10 @@
 pub mod geometry;
 pub mod mismatch;
 pub mod outline;
-pub mod physics;
 pub mod quasi_static;
 pub mod scenario;
 pub mod scene;
 pub mod solid;
 pub mod world;
+
+pub use vibrissa_declare::physics;

@@ -32,7 +32,7 @@ fn value(mismatch: &Mismatch, property: Property) -> Option<f64> {
 #[test]
 fn the_hard_array_has_twice_the_values_of_the_plausible_one() {
     let (plausible, hard) = (file("plausible"), file("hard"));
-    for property in Property::ALL {
+    for property in Property::all() {
         let factor = if property == Property::WanderTime { 1.0 } else { 2.0 };
         let (value, twice) = (value(&plausible, property), value(&hard, property));
         assert_eq!(value.is_some(), twice.is_some(), "{property:?}");
@@ -45,7 +45,7 @@ fn the_hard_array_has_twice_the_values_of_the_plausible_one() {
 #[test]
 fn the_ranges_of_drawn_arrays_are_about_zero_and_end_at_the_plausible_values() {
     let (plausible, drawn) = (file("plausible"), file("array"));
-    for property in Property::ALL {
+    for property in Property::all() {
         let Some(value) = value(&plausible, property) else { continue };
         let Range { least, greatest } = drawn.common.get(property).unwrap();
         assert!((greatest - value).abs() < 1e-15, "{property:?}");
@@ -66,7 +66,8 @@ fn every_key_of_a_section_reaches_the_array() {
           whiskers: {l0: {stiffness: 0 %, sensor: {offset: 0 urad}}}}",
     );
     let mismatch = scene.mismatch.as_ref().unwrap();
-    assert!(Property::ALL.into_iter().all(|property| mismatch.common.get(property).is_some()));
+    let mut own = Property::all().filter(|property| !matches!(property, Property::Rig(_)));
+    assert!(own.all(|property| mismatch.common.get(property).is_some()));
     assert_eq!(mismatch.seed, Some(4));
     let (assumed, array) = (&scene.rig, scene.true_array().unwrap());
     let near =

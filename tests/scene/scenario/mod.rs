@@ -5,4 +5,5 @@ mod errors;
 mod mismatch;
 mod near;
 mod page;
+mod rig_keys;
 mod scenes;

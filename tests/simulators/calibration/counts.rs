@@ -132,7 +132,7 @@ fn a_calibration_that_no_perception_can_use_is_refused_by_the_robot() {
     let spoilt = text.replace("          scale: ", "          scale: -");
     assert_ne!(spoilt, text);
     let error = config(&spoilt).unwrap_err().to_string();
-    assert!(error.contains("the calibration of the whisker `l0`: `recursive` cannot be used"), "{error}");
+    assert!(error.contains("the calibration cannot be used; `recursive` cannot be used"), "{error}");
 }
 
 #[test]

@@ -55,8 +55,7 @@ fn a_mismatch_of_nothing_changes_no_bit() {
         let trial = trial(world);
         let none = run(&trial, None);
         assert_eq!(none, run(&trial, Some(Mismatch::default())), "{world}");
-        let zero = Property::ALL
-            .into_iter()
+        let zero = Property::all()
             .filter(|property| !matches!(property, Property::Links | Property::Servo | Property::WanderTime));
         let zero: Vec<_> = zero.map(|property| (property, 0.0.into())).collect();
         assert_eq!(none, run(&trial, Some(with(&zero))), "{world}");

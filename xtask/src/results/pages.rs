@@ -254,7 +254,12 @@ pub(super) const PAGES: [Page; 15] = [
             "bench --mismatch scenarios/mismatch/hard.yaml --uncalibrated --json",
             "sweep sweeps/mismatch.yaml --uncalibrated --out out/mismatch --json",
         ],
-        code: &["crates/runtime/src/calibration", "crates/lab/src/calibration", "crates/world/src/mismatch"],
+        code: &[
+            "crates/runtime/src/calibration",
+            "crates/lab/src/calibration",
+            "crates/declare/src/mismatch",
+            "crates/world/src/mismatch",
+        ],
         has_times: false,
         is_slow: true,
         content: Content::Tables(mismatch::page),

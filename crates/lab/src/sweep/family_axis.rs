@@ -5,7 +5,8 @@ use super::scenes::{ScenesOf, SweepScenes};
 use vibrissa_declare::catalogue::{self, Parameter};
 use vibrissa_runtime::units::{Quantity, suggest};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
-use vibrissa_world::scenario::{Node, Placed, Reader, fault, quantity};
+use vibrissa_world::scenario::quantity;
+use vibrissa_yaml::{Node, Placed, Reader, fault};
 
 /// Reads the values of a parameter that all `scenes` must have.
 pub(super) fn values(

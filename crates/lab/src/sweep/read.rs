@@ -8,8 +8,9 @@ use crate::family::{FAMILIES, Family};
 use std::collections::BTreeMap;
 use vibrissa_runtime::machine::ParameterValue;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
-use vibrissa_world::scenario::{self, Change, Entry, Fields, Node, Placed, Reader, fault, name, reference, root_place};
+use vibrissa_world::scenario::{self, Change, name, reference};
 use vibrissa_world::scene::FileReference;
+use vibrissa_yaml::{Entry, Fields, Node, Placed, Reader, fault, parse, root_place};
 
 const SCENES: &str = "[{family: convex-corner, trials: 100}]";
 const POLICIES: &str = "[../policies/vibrissa.fsm]";
@@ -20,7 +21,7 @@ const MAX_RUNS: u64 = 1_000_000;
 
 /// Reads a sweep. The list of errors is not empty and in the order of the text.
 pub(super) fn read(source: &Source) -> Result<Sweep, Vec<Diagnostic>> {
-    let (tree, faults) = fault::parse(source, "sweep")?;
+    let (tree, faults) = parse(source, "sweep")?;
     let mut no_files = |_: &str| Err("a sweep has no files of its own".to_owned());
     let mut reader = Reader::new(source, &mut no_files, faults);
     let sweep = read_sweep(&mut reader, &tree);

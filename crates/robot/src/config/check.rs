@@ -3,9 +3,9 @@
 use vibrissa_mlx90393::{Address, Axis};
 use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::signal::MAX_WHISKERS;
-use vibrissa_runtime::units::{Dimension, format_si};
+use vibrissa_text::diagnostic::Source;
+use vibrissa_yaml::{Node, Placed};
 
-use super::document::{Node, Placed};
 use super::{ActuatorConfig, Config, ConfigError, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS, PoseSource, device};
 use crate::array::Transducer;
 
@@ -19,9 +19,8 @@ pub(super) struct Inconsistency {
 
 impl Inconsistency {
     /// The error at its place in the text.
-    pub(super) fn at(self, tree: &Placed<Node>) -> ConfigError {
-        let place = tree.find(&self.path).place;
-        ConfigError::At { line: place.line, column: place.column, message: self.message }
+    pub(super) fn at(self, source: &Source, tree: &Placed<Node>) -> ConfigError {
+        ConfigError::at(source, tree.find(&self.path).span, self.message)
     }
 }
 
@@ -132,26 +131,6 @@ pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
     }
     if config.record.as_ref().is_some_and(|record| record.directory.as_os_str().is_empty()) {
         return fault("record.directory", "`directory` is empty; give a directory, such as `/var/lib/vibrissa`");
-    }
-    let platform = &config.rig.platform;
-    if platform.centre_of_mass > platform.length {
-        let (ahead, length) =
-            (format_si(platform.centre_of_mass, Dimension::LENGTH), format_si(platform.length, Dimension::LENGTH));
-        let message = format!(
-            "the centre of mass is {ahead} ahead of the tail, in front of the platform, which is {length} long; give `length` and \
-             `centre_of_mass`, the second from 0 mm to the first"
-        );
-        return fault("rig.platform.centre_of_mass", message);
-    }
-    let sensing = &config.rig.sensing;
-    if 2.0 * sensing.filter_cutoff >= sensing.sample_rate {
-        let hertz = |rate| format_si(rate, Dimension::FREQUENCY);
-        let (cutoff, highest) = (hertz(sensing.filter_cutoff), hertz(0.5 * sensing.sample_rate));
-        let message = format!(
-            "a filter cannot have its cutoff at {cutoff}; it must be below half of the sample rate, {highest}, for example \
-             `filter_cutoff: 20 Hz`"
-        );
-        return fault("rig.sensing.filter_cutoff", message);
     }
     check(config)?;
     magnets(config)

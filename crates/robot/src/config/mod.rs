@@ -3,13 +3,11 @@
 mod bus;
 mod check;
 mod device;
-mod document;
 mod json;
 mod links;
 mod mqtt;
 mod quantity;
 mod range;
-mod reader;
 mod rig;
 mod safety;
 mod sender;
@@ -17,9 +15,12 @@ mod sensor;
 #[cfg(test)]
 mod tests;
 
+use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use vibrissa_mlx90393::CheckedSettings;
 use vibrissa_runtime::rig::Rig;
+use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
+use vibrissa_yaml::{Files, Node, Placed};
 
 pub use bus::{BoardConfig, BusConfig};
 pub use links::{ActuatorConfig, PoseConfig, PoseSource, RecordConfig};
@@ -28,24 +29,37 @@ pub use safety::{FaultResponse, Limits, Responses, Timeouts};
 pub use sender::{Sender, SenderError};
 pub use sensor::{SensorConfig, SensorConfigError};
 
-use rig::RigSection;
-
 /// Reads a list, with a check of each item. It returns the key that is not possible, and the reason.
 #[cfg(feature = "emulation")]
-pub(crate) fn read_list<T: serde::de::DeserializeOwned>(
+pub(crate) fn read_list<T: DeserializeOwned>(
     text: &str,
     check: impl Fn(&T) -> Result<(), (&'static str, String)>,
 ) -> Result<Vec<T>, ConfigError> {
+    let (source, tree) = parse(text)?;
+    let items: Vec<T> = read(&source, &tree)?;
+    for (index, item) in items.iter().enumerate() {
+        check(item).map_err(|(key, message)| {
+            check::Inconsistency { path: format!("{index}.{key}"), message }.at(&source, &tree)
+        })?;
+    }
+    Ok(items)
+}
+
+/// Parses a text, with a source for its positions.
+fn parse(text: &str) -> Result<(Source, Placed<Node>), ConfigError> {
     if text.len() > CONFIG_LIMIT {
         return Err(ConfigError::TooLarge);
     }
-    let tree = document::parse(text)?;
-    let items: Vec<T> = reader::read(&tree)?;
-    for (index, item) in items.iter().enumerate() {
-        check(item)
-            .map_err(|(key, message)| check::Inconsistency { path: format!("{index}.{key}"), message }.at(&tree))?;
+    let source = Source::new("", text);
+    match vibrissa_yaml::parse(&source, "configuration") {
+        Ok((tree, faults)) if faults.is_empty() => Ok((source, tree)),
+        Ok((_, faults)) | Err(faults) => Err(ConfigError::first(&source, &faults)),
     }
-    Ok(items)
+}
+
+/// Reads a value from the tree of a text.
+fn read<T: DeserializeOwned>(source: &Source, tree: &Placed<Node>) -> Result<T, ConfigError> {
+    vibrissa_yaml::read_value(tree).map_err(|fault| ConfigError::at(source, fault.span(), fault.to_string()))
 }
 
 /// Maximum number of buses.
@@ -109,13 +123,30 @@ pub enum ConfigError {
     TooLarge,
 }
 
+impl ConfigError {
+    fn at(source: &Source, span: Span, message: String) -> Self {
+        let place = source.line_column(span.start);
+        Self::At { line: place.line as u64, column: place.column as u64, message }
+    }
+
+    /// The first of the diagnostics of a text.
+    fn first(source: &Source, faults: &[Diagnostic]) -> Self {
+        let Some(Diagnostic { message, primary, hints, .. }) = faults.first() else {
+            return Self::Text("nothing can be read".to_owned());
+        };
+        let parts = [message, &primary.text].into_iter().chain(hints).map(String::as_str);
+        Self::at(source, primary.span, parts.collect::<Vec<_>>().join("; "))
+    }
+}
+
 /// The file as it is written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
     name: String,
-    #[serde(default)]
-    rig: RigSection,
+    /// It has its own reader.
+    #[serde(default, rename = "rig")]
+    _rig: IgnoredAny,
     #[serde(default)]
     sensor: SensorConfig,
     buses: Vec<BusConfig>,
@@ -132,19 +163,25 @@ struct File {
 }
 
 impl Config {
-    /// Reads a configuration.
+    /// Reads a configuration that names no other file.
     ///
     /// # Errors
     /// [`ConfigError`] with the first problem found.
     pub fn from_text(text: &str) -> Result<Self, ConfigError> {
-        if text.len() > CONFIG_LIMIT {
-            return Err(ConfigError::TooLarge);
-        }
-        let tree = document::parse(text)?;
-        let file: File = reader::read(&tree)?;
+        Self::from_text_with(text, &mut |_| Err("write the values of the calibration here".to_owned()))
+    }
+
+    /// Reads a configuration, with the calibrations from `files` to which it refers.
+    ///
+    /// # Errors
+    /// [`ConfigError`] with the first problem found.
+    pub fn from_text_with(text: &str, files: &mut Files<'_>) -> Result<Self, ConfigError> {
+        let (source, tree) = parse(text)?;
+        let file: File = read(&source, &tree)?;
+        let rig = rig::read(&source, &tree, files).map_err(|faults| ConfigError::first(&source, &faults))?;
         let mut config = Self {
             name: file.name,
-            rig: file.rig.rig(),
+            rig,
             sensor: file.sensor,
             buses: file.buses,
             limits: file.limits,
@@ -155,8 +192,8 @@ impl Config {
             mqtt: file.mqtt,
             record: file.record,
         };
-        let checked = file.rig.check().and_then(|()| range::check(&config)).and_then(|()| check::text(&config));
-        checked.map_err(|inconsistency| inconsistency.at(&tree))?;
+        let checked = range::check(&config).and_then(|()| check::text(&config));
+        checked.map_err(|inconsistency| inconsistency.at(&source, &tree))?;
         let platform = &mut config.rig.platform;
         platform.speed_limit = platform.speed_limit.min(config.limits.speed);
         platform.yaw_rate_limit = platform.yaw_rate_limit.min(config.limits.yaw_rate);

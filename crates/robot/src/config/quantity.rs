@@ -21,9 +21,9 @@ fn write<S: Serializer>(value_si: f64, serializer: S, dimension: Dimension) -> R
     serializer.collect_str(&format_args!("{value_si} {}", dimension.si_unit()))
 }
 
-/// Defines a module for each dimension, for `#[serde(with = ...)]`. The ones with `serialize` are written too.
+/// Defines a module for each dimension, for `#[serde(with = ...)]`.
 macro_rules! dimensions {
-    ($($name:ident: $dimension:ident $(, $serialize:ident)?;)*) => {
+    ($($name:ident: $dimension:ident;)*) => {
         $(
             #[doc = concat!("Quantities of the dimension ", stringify!($dimension), ".")]
             pub(super) mod $name {
@@ -33,36 +33,19 @@ macro_rules! dimensions {
                     super::read(deserializer, Dimension::$dimension)
                 }
 
-                $(
-                    pub(in super::super) fn $serialize<S: super::Serializer>(
-                        value: &f64,
-                        serializer: S,
-                    ) -> Result<S::Ok, S::Error> {
-                        super::write(*value, serializer, Dimension::$dimension)
-                    }
-                )?
+                pub(in super::super) fn serialize<S: super::Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+                    super::write(*value, serializer, Dimension::$dimension)
+                }
             }
         )*
     };
 }
 
 dimensions! {
-    length: LENGTH, serialize;
-    angle: ANGLE, serialize;
-    time: TIME, serialize;
-    mass: MASS;
-    speed: SPEED, serialize;
-    angular_speed: ANGULAR_SPEED, serialize;
-    frequency: FREQUENCY, serialize;
-    inertia: INERTIA;
-    torsion_stiffness: TORSION_STIFFNESS;
-    pressure: PRESSURE;
-}
-
-/// Reads two lengths, such as `[53 mm, -30 mm]`.
-pub(super) fn two_lengths<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
-    #[derive(serde::Deserialize)]
-    struct Length(#[serde(deserialize_with = "length::deserialize")] f64);
-    let [first, second] = <[Length; 2]>::deserialize(deserializer)?;
-    Ok([first.0, second.0])
+    length: LENGTH;
+    angle: ANGLE;
+    time: TIME;
+    speed: SPEED;
+    angular_speed: ANGULAR_SPEED;
+    frequency: FREQUENCY;
 }

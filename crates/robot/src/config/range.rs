@@ -1,7 +1,5 @@
-//! The ranges of all numbers of a configuration. Those of the rig are the scenario's.
+//! The ranges of all numbers of a configuration but for those of the rig, whose reader checks them.
 
-use vibrissa_runtime::rig::keys::{platform, sensing, whisker};
-use vibrissa_runtime::rig::{Hinge, Platform, Sensing, Shaft, Whisker};
 use vibrissa_runtime::units::{Dimension, Key, format_si};
 
 use super::check::Inconsistency;
@@ -82,78 +80,7 @@ fn numbers(config: &Config) -> Vec<Number> {
     if let Some(record) = &config.record {
         add(&mut numbers, "record", [(record.limit_mb as f64, LIMIT_MB)]);
     }
-    let Platform {
-        tail_width,
-        nose_width,
-        length,
-        centre_of_mass,
-        mass,
-        inertia,
-        servo,
-        yaw_servo,
-        speed_limit,
-        yaw_rate_limit,
-        ..
-    } = config.rig.platform;
-    add(
-        &mut numbers,
-        "rig.platform",
-        [
-            (tail_width, platform::TAIL_WIDTH),
-            (nose_width, platform::NOSE_WIDTH),
-            (length, platform::LENGTH),
-            (centre_of_mass, platform::CENTRE_OF_MASS),
-            (mass, platform::MASS),
-            (inertia, platform::INERTIA),
-            (servo, platform::SERVO),
-            (speed_limit, platform::SPEED_LIMIT),
-            (yaw_rate_limit, platform::YAW_RATE_LIMIT),
-        ],
-    );
-    if let Some(yaw_servo) = yaw_servo {
-        add(&mut numbers, "rig.platform", [(yaw_servo, platform::YAW_SERVO)]);
-    }
-    config.rig.whiskers.iter().for_each(|whisker| whisker_numbers(&mut numbers, whisker));
-    let Sensing { sample_rate, control_rate, filter_cutoff, contact_threshold, angle_noise, surface_roughness, .. } =
-        config.rig.sensing;
-    add(
-        &mut numbers,
-        "rig.sensing",
-        [
-            (sample_rate, sensing::SAMPLE_RATE),
-            (control_rate, sensing::CONTROL_RATE),
-            (filter_cutoff, sensing::FILTER_CUTOFF),
-            (contact_threshold, sensing::CONTACT_THRESHOLD),
-            (angle_noise, sensing::ANGLE_NOISE),
-            (surface_roughness, sensing::SURFACE_ROUGHNESS),
-        ],
-    );
     numbers
-}
-
-fn whisker_numbers(numbers: &mut Vec<Number>, entry: &Whisker) {
-    let path = format!("rig.whiskers.{}", entry.name);
-    for (axis, value) in [entry.base_body.x, entry.base_body.y].into_iter().enumerate() {
-        numbers.push((format!("{path}.base.{axis}"), value, whisker::BASE));
-    }
-    add(numbers, &path, [(entry.direction_body, whisker::DIRECTION)]);
-    let Shaft { length, radius, young_modulus, damping, .. } = entry.shaft;
-    add(
-        numbers,
-        &format!("{path}.shaft"),
-        [
-            (length, whisker::LENGTH),
-            (radius, whisker::RADIUS),
-            (young_modulus, whisker::YOUNG_MODULUS),
-            (damping, whisker::DAMPING),
-        ],
-    );
-    let Hinge { stiffness, armature, .. } = entry.hinge;
-    add(
-        numbers,
-        &format!("{path}.hinge"),
-        [(stiffness, whisker::HINGE_STIFFNESS), (armature, whisker::HINGE_ARMATURE)],
-    );
 }
 
 fn sensor_codes(numbers: &mut Vec<Number>, sensor: SensorConfig) {

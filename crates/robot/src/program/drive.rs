@@ -135,7 +135,10 @@ fn drive_by(
 pub(super) fn read_config(path: &Path) -> Result<(Config, String), Error> {
     let bytes = read(path, CONFIG_LIMIT)?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{} is not UTF-8 text", path.display()))?;
-    let config = Config::from_text(&text).map_err(|error| format!("{}: {error}", path.display()))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut calibration = |name: &str| read(&folder.join(name), CONFIG_LIMIT).map_err(|error| error.to_string());
+    let config =
+        Config::from_text_with(&text, &mut calibration).map_err(|error| format!("{}: {error}", path.display()))?;
     Ok((config, text))
 }
 

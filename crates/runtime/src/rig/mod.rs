@@ -4,7 +4,6 @@
 
 mod estimation;
 mod hinge;
-pub mod keys;
 mod platform;
 mod sensing;
 mod shaft;

@@ -20,6 +20,7 @@ pub fn printable_json(json: &str) -> Cow<'_, str> {
 }
 
 /// Same as [`printable`], without a change of byte positions. Each replaced character becomes one with as many bytes.
+#[cfg(feature = "terminal")]
 pub(super) fn same_length(text: &str) -> Cow<'_, str> {
     replaced(text, |letter| {
         let stand_in = match letter.len_utf8() {

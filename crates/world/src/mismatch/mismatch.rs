@@ -6,12 +6,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::array::{PoseErrors, SensorErrors, TrueArray};
-use super::ranges::Values;
+use super::ranges::{Values, changes};
 use super::whisker::true_whisker;
 use super::{Loss, Property, Ranges};
 use crate::physics::light_link;
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::MAX_WHISKERS;
+use vibrissa_runtime::units::format_si;
 
 /// The differences between the true array and the assumed one, as ranges.
 ///
@@ -49,13 +50,19 @@ pub enum MismatchError {
         /// The whiskers of the rig.
         known: String,
     },
-    /// A whisker could be too short.
-    #[error("the true length of whisker `{name}` could be {:.3} mm; make `length` greater", length * 1e3)]
-    Short {
+    /// A value of a whisker could be out of the range of its key.
+    #[error(
+        "the true `{key}` of whisker `{name}` could be {value}, and must be {range}; narrow the range of `{key}` in the mismatch"
+    )]
+    Beyond {
         /// The whisker.
         name: String,
-        /// Its least length (m).
-        length: f64,
+        /// The key of the rig.
+        key: &'static str,
+        /// The value with its unit.
+        value: String,
+        /// The range of the key.
+        range: String,
     },
     /// A whisker could be too light for a simulation.
     #[error(
@@ -67,9 +74,6 @@ pub enum MismatchError {
         name: String,
     },
 }
-
-/// The least length of a whisker (m), as in a scenario.
-const LEAST_LENGTH: f64 = 1e-3;
 
 impl Mismatch {
     /// The true array for an `assumed` rig. The same ranges and the same seed give the same array.
@@ -88,6 +92,7 @@ impl Mismatch {
         // No whisker has this stream.
         let values = self.common.draw(&mut random(MAX_WHISKERS));
         let mut platform = assumed.platform.clone();
+        values.apply(&mut platform);
         if let Some(servo) = values.get(Property::Servo) {
             (platform.servo, platform.yaw_servo) = (servo, None);
         }
@@ -138,11 +143,28 @@ impl Mismatch {
             let known: Vec<_> = assumed.whiskers.iter().map(|whisker| format!("`{}`", whisker.name)).collect();
             return Err(MismatchError::UnknownWhisker { name: name.clone(), known: known.join(", ") });
         }
-        let least = |whisker: &Whisker| whisker.shaft.length + self.smallest(whisker).or_zero(Property::Length);
-        match assumed.whiskers.iter().find(|whisker| least(whisker) < LEAST_LENGTH) {
-            Some(short) => Err(MismatchError::Short { name: short.name.clone(), length: least(short) }),
-            None => Ok(()),
+        assumed.whiskers.iter().try_for_each(|whisker| self.check_keys(whisker))
+    }
+
+    /// Checks that every value that can be drawn is in the range of its key.
+    fn check_keys(&self, assumed: &Whisker) -> Result<(), MismatchError> {
+        for is_least in [true, false] {
+            let mut whisker = assumed.clone();
+            let values = self.ranges(&assumed.name).extreme(|_| is_least);
+            values.apply(&mut whisker);
+            for (key, _, property) in changes() {
+                let Some(value) = values.get(property).and_then(|_| key.number(&mut whisker)) else { continue };
+                if !key.key().contains(value) {
+                    return Err(MismatchError::Beyond {
+                        name: assumed.name.clone(),
+                        key: key.name(),
+                        value: format_si(value, key.dimension),
+                        range: key.key().range_text(),
+                    });
+                }
+            }
         }
+        Ok(())
     }
 
     fn check_inertia(&self, assumed: &Whisker) -> Result<(), MismatchError> {

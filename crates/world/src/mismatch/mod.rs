@@ -7,7 +7,6 @@ mod array;
 mod loss;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod mismatch;
-mod property;
 mod range;
 mod ranges;
 mod whisker;
@@ -15,9 +14,9 @@ mod whisker;
 pub use array::{PoseErrors, SensorErrors, TrueArray};
 pub use loss::Loss;
 pub use mismatch::{Mismatch, MismatchError};
-pub use property::Property;
 pub use range::Range;
 pub use ranges::Ranges;
+pub use vibrissa_declare::mismatch::{Difference, Property};
 
 #[cfg(test)]
 mod tests;

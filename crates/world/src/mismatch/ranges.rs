@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardUniform};
 
-use super::{Property, Range};
+use vibrissa_declare::mismatch::Change;
+use vibrissa_declare::rig::{Part, RigKey, key};
+
+use super::{Difference, Property, Range};
 
 /// The ranges of some properties.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -39,7 +42,7 @@ impl Ranges {
     /// Draws a value for every property that has a range. The value of a property depends on its own range alone.
     pub(super) fn draw(&self, random: &mut ChaCha8Rng) -> Values {
         let mut values = Values::default();
-        for property in Property::ALL {
+        for property in Property::all() {
             let share: f64 = StandardUniform.sample(random);
             if let Some(range) = self.get(property) {
                 values.0.insert(property, range.at(share));
@@ -57,6 +60,14 @@ impl Ranges {
     }
 }
 
+/// The properties that change single keys of a rig.
+pub(super) fn changes() -> impl Iterator<Item = (&'static RigKey, Change, Property)> {
+    Difference::all().filter_map(|difference| {
+        let (path, change) = difference.of?;
+        Some((key(path)?, change, difference.property))
+    })
+}
+
 /// The values of some properties.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Values(BTreeMap<Property, f64>);
@@ -65,6 +76,15 @@ impl Values {
     /// The value of a property, if it differs from the assumed one.
     pub(super) fn get(&self, property: Property) -> Option<f64> {
         self.0.get(&property).copied()
+    }
+
+    /// Applies the values that change single keys of this part of a rig.
+    pub(super) fn apply<T: Part>(&self, part: &mut T) {
+        for (key, change, property) in changes() {
+            if let Some(value) = self.get(property) {
+                key.apply(part, change, value);
+            }
+        }
     }
 
     /// The value of a property for which 0 means no difference.

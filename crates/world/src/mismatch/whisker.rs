@@ -12,9 +12,8 @@ pub(super) fn true_whisker(assumed: &Whisker, values: &Values) -> Whisker {
     let mut whisker = assumed.clone();
     let relative = |property| 1.0 + values.or_zero(property);
     let side = assumed.side();
+    values.apply(&mut whisker);
     let shaft = &mut whisker.shaft;
-    shaft.young_modulus *= relative(P::Stiffness);
-    shaft.length += values.or_zero(P::Length);
     let tip_radius = shaft.tip_radius.unwrap_or(shaft.radius) * (relative(P::Radius) * relative(P::TipRadius));
     shaft.radius *= relative(P::Radius);
     if shaft.tip_radius.is_some() || values.get(P::TipRadius).is_some() {
@@ -26,7 +25,6 @@ pub(super) fn true_whisker(assumed: &Whisker, values: &Values) -> Whisker {
         let links = links.round().max(1.0) as usize;
         shaft.links = links;
     }
-    whisker.hinge.stiffness *= relative(P::Hinge);
     whisker.base_body += Vector2::new(values.or_zero(P::BaseForward), side * values.or_zero(P::BaseOutward));
     whisker.direction_body += side * values.or_zero(P::Direction);
     whisker

@@ -2,80 +2,15 @@
 
 use std::fmt::Write;
 
-use serde::Deserialize;
-use vibrissa_runtime::calibration::{
-    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, MeasuredWhisker, UnsoundCalibration,
-};
-
-/// The supported format version.
-const FORMAT: u32 = 2;
-
-/// The keys of a file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Document {
-    #[serde(rename = "vibrissa_calibration")]
-    format: u32,
-    about: String,
-    hinge_stiffness: Option<f64>,
-    measured: Option<MeasuredWhisker>,
-    one_channel: Option<ContactCurve>,
-    recursive: Option<AngleSurface>,
-    polynomial: Option<DeflectionPolynomial>,
-}
-
-/// The key that all format versions have.
-#[derive(Deserialize)]
-struct Heading {
-    #[serde(rename = "vibrissa_calibration")]
-    format: u32,
-}
-
-/// The reason why a calibration cannot be read.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum CalibrationError {
-    /// The text is not a calibration.
-    #[error("it is not a calibration: {0}")]
-    Syntax(String),
-    /// The format version is not supported.
-    #[error("it is in format {found}, this program reads format {FORMAT}; calibrate with this program")]
-    Format {
-        /// The format version of the file.
-        found: u32,
-    },
-    /// A value is invalid.
-    #[error(transparent)]
-    Value(#[from] UnsoundCalibration),
-}
-
-/// Reads a calibration from the text of its file.
-///
-/// # Errors
-/// [`CalibrationError`] if the text cannot be read, or if a value is invalid.
-pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
-    let read: Document = match serde_yaml::from_str(text) {
-        Ok(read) => read,
-        // Another format version may have unknown keys.
-        Err(error) => match serde_yaml::from_str(text) {
-            Ok(Heading { format: found }) if found != FORMAT => return Err(CalibrationError::Format { found }),
-            _ => return Err(CalibrationError::Syntax(error.to_string())),
-        },
-    };
-    let Document { format, about, hinge_stiffness, measured, one_channel, recursive, polynomial } = read;
-    if format != FORMAT {
-        return Err(CalibrationError::Format { found: format });
-    }
-    let calibration = Calibration { about, hinge_stiffness, measured, one_channel, recursive, polynomial };
-    calibration.check()?;
-    Ok(calibration)
-}
+use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, MeasuredWhisker};
+use vibrissa_yaml::CALIBRATION_FORMAT;
 
 /// Returns the text of a calibration file.
 #[must_use]
 pub fn write_calibration(calibration: &Calibration) -> String {
     format!(
         "# A whisker's calibration, in metres, radians and newtons; a rig loads it by `calibration: FILE`.\n\
-         vibrissa_calibration: {FORMAT}\n{}",
+         vibrissa_calibration: {CALIBRATION_FORMAT}\n{}",
         values(calibration)
     )
 }

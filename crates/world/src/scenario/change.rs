@@ -1,12 +1,12 @@
 //! Changes of a scenario by a sweep.
 
-use super::node::{Entry, Node, Placed};
-use super::reader::{Reader, written};
+use super::reader::Reader;
 use super::{fault, scene};
 use crate::scenario::Files;
 use crate::scene::Scene;
 use std::ops::Range;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
+use vibrissa_yaml::{Entry, Node, Placed, parse, written};
 
 /// One value for a key of a scenario, such as `rig.physics.friction`.
 #[derive(Debug, Clone)]
@@ -152,7 +152,7 @@ pub fn read(
     if changes.is_empty() {
         return scene::read(source, files).map_err(in_scenario);
     }
-    let (mut tree, faults) = fault::parse(source, "scenario").map_err(in_scenario)?;
+    let (mut tree, faults) = parse(source, "scenario").map_err(in_scenario)?;
     let mut both = source.clone();
     both.add(&sweep.name, Ok(&sweep.text));
     let offset = both.part_span(1).start;

@@ -1,14 +1,12 @@
 //! Reader of `convex_corner` and `concave_corner`: objects with one corner that is given by its angle.
 
-use super::fields::Fields;
-use super::key::Key;
-use super::node::Entry;
 use super::object::made;
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
 use crate::geometry::{Contour, Point2, Vector2, concave_corner, convex_corner, polygon, rotate};
 use std::f64::consts::PI;
-use vibrissa_runtime::units::Dimension;
+use vibrissa_runtime::units::{Dimension, Key};
+use vibrissa_yaml::{Entry, Fields};
 
 const CORNER: Key = Key { name: "corner", example: "[20 cm, 40 cm]", ..POSITION };
 const CONVEX_ANGLE: Key = Key::new("angle", Dimension::ANGLE, (PI / 180.0, 175.0 / 180.0 * PI), "60 deg");

@@ -1,11 +1,10 @@
 //! Reader of `expect`.
 
-use super::fields::Fields;
-use super::key::Key;
-use super::node::Entry;
 use super::reader::Reader;
 use crate::scene::{Expectation, Outcome, Stop};
 use vibrissa_declare::figures::{Bound, Kind, Metric};
+use vibrissa_runtime::units::Key;
+use vibrissa_yaml::{Entry, Fields};
 
 /// The expectation of every scenario without an outcome in `expect`: its runs complete.
 const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);

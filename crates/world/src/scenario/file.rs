@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use super::fault;
-use super::node::{Node, Placed};
-use super::reader::Reader;
 use crate::scene::FileReference;
 use vibrissa_text::diagnostic::Diagnostic;
+use vibrissa_yaml::{Node, Placed, Reader};
 
 /// Reads a path, relative to the referring text. The name of the file is its last component without the extension.
 pub fn reference(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<FileReference> {

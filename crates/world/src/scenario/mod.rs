@@ -3,18 +3,12 @@
 //! The parser returns a tree in which every node has its span. The readers traverse the tree and collect diagnostics
 //! instead of stopping at the first. Checks of several values come last, and use all values that could be read.
 
-mod budget;
 mod calibration;
 mod change;
 mod corner;
 mod expect;
-pub mod fault;
-mod fields;
 mod file;
-mod key;
 mod mismatch;
-mod node;
-mod number;
 mod object;
 mod objects;
 mod outline;
@@ -32,27 +26,21 @@ mod tests;
 mod texture;
 mod timing;
 mod tunnel;
-mod whisker;
 
-pub use calibration::{CalibrationError, read_calibration, write_calibration, write_robot_calibration};
+pub use calibration::{write_calibration, write_robot_calibration};
 pub use change::{Change, quoted, read as read_changed};
-pub use fields::Fields;
 pub use file::reference;
 pub use file::unreadable;
 pub use mismatch::read_mismatch;
-pub use node::{Entry, Node, Placed};
 pub use parameter::{parameter, quantity};
 pub use policy::unfit;
-pub use reader::Reader;
 pub use rig::read_rig;
-pub use scene::{name, root_place};
+pub use scene::name;
+
+pub use vibrissa_yaml::{CalibrationError, Files, fault, read_calibration};
 
 use crate::scene::Scene;
 use vibrissa_text::diagnostic::{Diagnostic, Source};
-
-/// Returns the bytes of a file for a path relative to the scenario, or the reason why it cannot be read. One byte more
-/// than [`SIZE_LIMIT`](crate::outline::SIZE_LIMIT) suffices.
-pub type Files<'f> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'f;
 
 /// Reads a scenario that refers to no other file.
 ///

@@ -1,16 +1,14 @@
 //! Reader of the shapes in `objects`.
 
-use super::fields::Fields;
-use super::key::Key;
-use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{HEADING, POSITION};
 use super::{corner, fault, outline, path, polar, texture, tunnel};
 use crate::geometry::{
     Contour, ContourError, Point2, ShapeError, Texture, Tunnel, circle, polygon, regular_polygon, rounded_rectangle,
 };
-use vibrissa_runtime::units::{Dimension, format_si};
+use vibrissa_runtime::units::{Dimension, Key, format_si};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
+use vibrissa_yaml::{Entry, Fields, Node, Placed};
 
 const CENTRE: Key = Key { name: "centre", example: "[40 cm, 40 cm]", ..POSITION };
 const VERTICES: &str = "[[0 cm, 30 cm], [20 cm, 30 cm], [10 cm, 50 cm]]";

@@ -1,7 +1,6 @@
 //! The solids of all objects of a scenario, and their validation: separate from each other and clear of the rig.
 
 use super::fault;
-use super::node::Placed;
 use super::object::Object;
 use super::reader::Reader;
 use crate::geometry::{Contour, ContourSet, Pose, Side, Tunnel, TunnelAxis, UnionError, unite};
@@ -11,6 +10,7 @@ use crate::solid::{Solid, SolidError};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::units::{Dimension, format_si};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
+use vibrissa_yaml::Placed;
 
 /// The largest total number of parts of all solids. MuJoCo needs some 70 µs to build each.
 const MAX_PARTS: usize = 8192;

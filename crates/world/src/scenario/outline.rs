@@ -1,15 +1,13 @@
 //! Reader of `outline`: outlines from a file.
 
 use super::fault;
-use super::fields::{Fields, list};
-use super::key::Key;
-use super::node::{Entry, Placed};
 use super::reader::Reader;
 use super::start;
 use crate::geometry::{Contour, Pose};
 use crate::outline::{self, Format, Holes, OutlineError, OutlineFault, ReadOptions};
-use vibrissa_runtime::units::Dimension;
+use vibrissa_runtime::units::{Dimension, Key};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
+use vibrissa_yaml::{Entry, Fields, Placed, list};
 
 const UNIT: Key = Key::new("unit", Dimension::LENGTH, (1e-6, 10.0), "1 mm");
 const HEIGHT: Key = Key::new("height", Dimension::LENGTH, (-100.0, 100.0), "12 mm");
@@ -47,7 +45,7 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<impl Iterat
     fields.finish(reader);
     let (path, format, unit, element) = (path?, format?, unit?, element?);
     let (height, holes, frame) = (height?, holes?, frame?);
-    let bytes = reader.file(&path.value).map_err(|reason| {
+    let bytes = reader.outline_file(&path.value).map_err(|reason| {
         let message = format!("cannot read `{}`", path.value);
         let fault = Diagnostic::error(fault::FILE, message, path.span, reason);
         reader.report(fault.hint("a path is relative to the folder of the scenario"));

@@ -4,9 +4,8 @@ use vibrissa_runtime::machine::ParameterValue;
 use vibrissa_runtime::units::{Dimension, Quantity, parse_quantity};
 
 use super::fault;
-use super::node::{Node, Placed};
-use super::reader::Reader;
 use vibrissa_text::diagnostic::Diagnostic;
+use vibrissa_yaml::{Node, Placed, Reader};
 
 /// Reads a value of a parameter of a policy, and its text: a quantity, or the name of a choice. The policy checks it later.
 pub fn parameter(reader: &mut Reader<'_>, node: &Placed<Node>) -> Option<(ParameterValue, String)> {

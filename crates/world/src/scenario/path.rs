@@ -1,15 +1,13 @@
 //! Reader of `path`: an outline as a sequence of straights, turns and arcs.
 
-use super::fields::Fields;
-use super::key::Key;
-use super::node::{Entry, Node, Placed};
 use super::object::made;
 use super::reader::Reader;
 use super::start;
 use crate::geometry::{Contour, Path};
 use std::f64::consts::{PI, TAU};
-use vibrissa_runtime::units::Dimension;
+use vibrissa_runtime::units::{Dimension, Key};
 use vibrissa_text::diagnostic::Span;
+use vibrissa_yaml::{Entry, Fields, Node, Placed};
 
 const STRAIGHT: Key = Key::new("straight", Dimension::LENGTH, (1e-5, 100.0), "10 cm");
 const TURN: Key = Key::new("turn", Dimension::ANGLE, (-PI, PI), "30 deg");

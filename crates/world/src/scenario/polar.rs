@@ -1,15 +1,13 @@
 //! Reader of `polar`: smooth closed curves.
 
 use super::fault;
-use super::fields::Fields;
-use super::key::Key;
-use super::node::{Entry, Node, Placed};
 use super::object::{RADIUS, centre, made};
 use super::reader::Reader;
 use crate::geometry::{Contour, Harmonic, polar_curve, polar_curve_pieces};
 use std::f64::consts::TAU;
-use vibrissa_runtime::units::Dimension;
+use vibrissa_runtime::units::{Dimension, Key};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
+use vibrissa_yaml::{Entry, Fields, Node, Placed};
 
 const AMPLITUDE: Key = Key::new("amplitude", Dimension::LENGTH, (-10.0, 10.0), "20 mm");
 const PHASE: Key = Key::new("phase", Dimension::ANGLE, (-TAU, TAU), "30 deg");

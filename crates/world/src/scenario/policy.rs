@@ -1,12 +1,11 @@
 //! The policy of a scenario.
 
-use super::fields::Fields;
-use super::node::{Node, Placed};
 use super::parameter::parameter;
 use super::reader::Reader;
 use super::{fault, file};
 use crate::scene::{PolicyReference, PolicySetting};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
+use vibrissa_yaml::{Fields, Node, Placed};
 
 const EXAMPLE: &str = "{file: ../policies/vibrissa.fsm, set: {speed: 80 mm/s}}";
 

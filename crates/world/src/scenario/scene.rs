@@ -1,7 +1,5 @@
 //! The root of a scenario.
 
-use super::fields::Fields;
-use super::node::{Entry, Node, Placed};
 use super::objects::Objects;
 use super::reader::Reader;
 use super::{expect, fault, mismatch, object, policy, rig, start, stop};
@@ -9,32 +7,20 @@ use crate::physics::Physics;
 use crate::scenario::Files;
 use crate::scene::{Scene, WorldKind};
 use vibrissa_runtime::rig::Rig;
-use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
+use vibrissa_text::diagnostic::{Diagnostic, Source};
+use vibrissa_yaml::{Entry, Fields, Node, Placed, parse, root_place};
 
 const NAME_HINT: &str = "results are filed under this name; the `description` takes any text";
 
 /// Reads a scenario. A list of diagnostics is never empty and has the order of the text.
-pub(crate) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
-    let (tree, faults) = fault::parse(source, "scenario")?;
+pub(super) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<Diagnostic>> {
+    let (tree, faults) = parse(source, "scenario")?;
     let mut reader = Reader::new(source, files, faults);
     let scene = read_scene(&mut reader, &tree);
     reader.finish(scene)
 }
 
-/// The span that represents a text with the root `tree`. An empty text is reported with an example, and gives `None`.
-pub fn root_place(reader: &mut Reader<'_>, tree: &Placed<Node>, what: &str, hint: &'static str) -> Option<Span> {
-    match &tree.value {
-        Node::Mapping(entries) => Some(entries.first().map_or(tree.span, |first| first.key.span)),
-        Node::Null => {
-            let fault = Diagnostic::error(fault::EMPTY, format!("the {what} is empty"), tree.span, "nothing here");
-            reader.report(fault.hint(hint));
-            None
-        }
-        _ => Some(tree.span),
-    }
-}
-
-pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
+pub(super) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     let hint = "write at least `name`, `objects`, `start` and `stop`; see scenarios/disk.yaml";
     let place = root_place(reader, tree, "scenario", hint)?;
     let mut fields = Fields::of(reader, tree, "a scenario", place)?;
@@ -109,7 +95,7 @@ pub(crate) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
 }
 
 /// Reads the name of `what`, which must be a valid file name.
-pub fn name(reader: &mut Reader<'_>, entry: &Entry, what: &str, hint: &'static str) -> Option<String> {
+pub fn name(reader: &mut vibrissa_yaml::Reader<'_>, entry: &Entry, what: &str, hint: &'static str) -> Option<String> {
     let name = reader.text(&entry.value)?;
     let is_fit = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-');
     if name.value.is_empty() || name.value.len() > 64 || !name.value.chars().all(is_fit) {

@@ -1,12 +1,10 @@
 //! Reader of `start`: the initial pose of the platform.
 
-use super::fields::Fields;
-use super::key::Key;
-use super::node::{Entry, Placed};
 use super::reader::Reader;
 use crate::geometry::Pose;
 use std::f64::consts::TAU;
-use vibrissa_runtime::units::Dimension;
+use vibrissa_runtime::units::{Dimension, Key};
+use vibrissa_yaml::{Entry, Fields, Placed};
 
 /// Coordinates in the world frame, limited to 100 m.
 pub(super) const POSITION: Key = Key::new("position", Dimension::LENGTH, (-100.0, 100.0), "[0 mm, 72 mm]");

@@ -1,14 +1,12 @@
 //! Reader of `stop`: the stop condition of a run.
 
 use super::fault;
-use super::fields::Fields;
-use super::key::Key;
-use super::node::{Entry, Placed};
 use super::reader::Reader;
 use super::start::POSITION;
 use crate::scene::{LoopClosed, Reached, Stalled, Stop};
-use vibrissa_runtime::units::{Dimension, format_si};
+use vibrissa_runtime::units::{Dimension, Key, format_si};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
+use vibrissa_yaml::{Entry, Fields, Placed};
 
 const TIME: Key = Key::new("time", Dimension::TIME, (1e-3, 86_400.0), "120 s");
 const WITHIN: Key = Key::new("within", Dimension::LENGTH, (1e-6, 1.0), "5 mm");

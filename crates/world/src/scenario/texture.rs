@@ -1,13 +1,11 @@
 //! Reader of `texture`: the roughness of an object.
 
 use super::fault;
-use super::fields::Fields;
-use super::key::Key;
-use super::node::Entry;
 use super::reader::Reader;
 use crate::geometry::{Texture, TextureKind};
-use vibrissa_runtime::units::{Dimension, format_si};
+use vibrissa_runtime::units::{Dimension, Key, format_si};
 use vibrissa_text::diagnostic::Diagnostic;
+use vibrissa_yaml::{Entry, Fields};
 
 const AMPLITUDE: Key = Key::new("amplitude", Dimension::LENGTH, (1e-7, 1e-2), "0.02 mm");
 const WAVELENGTH: Key = Key::new("wavelength", Dimension::LENGTH, (1e-4, 1.0), "4 mm");

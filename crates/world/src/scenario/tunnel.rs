@@ -1,14 +1,12 @@
 //! Reader of `tunnel`: two walls along a centre line.
 
 use super::fault;
-use super::fields::Fields;
-use super::key::Key;
-use super::node::{Entry, Node, Placed};
 use super::reader::Reader;
 use super::start::{self, HEADING};
 use crate::geometry::{CentreLine, Corners, Opening, Pose, Tunnel};
-use vibrissa_runtime::units::Dimension;
+use vibrissa_runtime::units::{Dimension, Key};
 use vibrissa_text::diagnostic::Diagnostic;
+use vibrissa_yaml::{Entry, Fields, Node, Placed};
 
 const WIDTH: Key = Key::new("width", Dimension::LENGTH, (1e-3, 10.0), "225 mm");
 const THICKNESS: Key = Key::new("thickness", Dimension::LENGTH, (1e-4, 10.0), "20 mm");

@@ -1,17 +1,18 @@
 //! Reading of numbers with units.
 
-use super::fault;
-use super::fields::list;
-use super::key::Key;
-use super::node::{Node, Placed};
-use super::reader::{Reader, written};
-use crate::geometry::Point2;
-use vibrissa_runtime::units::{Dimension, Quantity, QuantityError, UnitError, parse_quantity, unit_hint, units_of};
+use crate::fault;
+use crate::fields::list;
+use crate::node::{Node, Placed};
+use crate::reader::{Reader, written};
+use vibrissa_runtime::geometry::Point2;
+use vibrissa_runtime::units::{
+    Dimension, Key, Quantity, QuantityError, UnitError, parse_quantity, unit_hint, units_of,
+};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
 
 impl Reader<'_> {
     /// Reads a number with the dimension and the range of its key, in SI units.
-    pub(super) fn number(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<f64>> {
+    pub fn number(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<f64>> {
         let span = self.extent(node);
         let quantity = match &node.value {
             Node::Text(text) => match parse_quantity(text) {
@@ -35,8 +36,7 @@ impl Reader<'_> {
             self.report(wrong_dimension(&node.value, span, &quantity, key));
             return None;
         }
-        let (least, greatest) = key.range;
-        if !(least..=greatest).contains(&quantity.value_si) {
+        if !key.contains(quantity.value_si) {
             let message = format!("`{}` cannot be {}", key.name, written(&node.value));
             let label = format!("must be {}", key.range_text());
             self.report(Diagnostic::error(fault::RANGE, message, span, label).hint(example(key)));
@@ -46,7 +46,7 @@ impl Reader<'_> {
     }
 
     /// Reads a point: two numbers with the dimension and the range of the key.
-    pub(super) fn point(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<Point2>> {
+    pub fn point(&mut self, node: &Placed<Node>, key: &Key) -> Option<Placed<Point2>> {
         let span = self.extent(node);
         match &node.value {
             Node::List(items) if let [x, y] = items.as_slice() => {

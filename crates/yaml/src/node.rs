@@ -44,7 +44,8 @@ pub struct Entry {
 
 impl Node {
     /// The type of the value, with its article.
-    pub(crate) fn kind(&self) -> &'static str {
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
         match self {
             Self::Null => "nothing",
             Self::Bool(_) => "true or false",
@@ -57,8 +58,33 @@ impl Node {
 }
 
 impl Placed<Node> {
+    /// The entry with this key. `None` if there is none, or if the value is no mapping.
+    #[must_use]
+    pub fn entry(&self, key: &str) -> Option<&Entry> {
+        let Node::Mapping(entries) = &self.value else { return None };
+        entries.iter().find(|entry| entry.key.value == key)
+    }
+
+    /// The value at a path such as `buses.0.device`, or the innermost value of this path that exists.
+    #[must_use]
+    pub fn find(&self, path: &str) -> &Self {
+        let mut found = self;
+        for name in path.split('.') {
+            let next = match &found.value {
+                Node::List(items) => name.parse().ok().and_then(|index: usize| items.get(index)),
+                _ => found.entry(name).map(|entry| &entry.value),
+            };
+            match next {
+                Some(next) => found = next,
+                None => break,
+            }
+        }
+        found
+    }
+
     /// Moves all spans by `by` bytes.
-    pub(crate) fn moved(mut self, by: usize) -> Self {
+    #[must_use]
+    pub fn moved(mut self, by: usize) -> Self {
         self.move_on(by);
         self
     }

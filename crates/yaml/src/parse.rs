@@ -1,60 +1,11 @@
-//! Diagnostics for errors of the YAML parser, and the codes of all diagnostics of scenarios and sweeps.
+//! From a text to its tree, and diagnostics for errors of the YAML parser.
 
-use super::node::{Node, Placed, span_of};
+use crate::fault::{DOCUMENTS, DUPLICATE_KEY, EMPTY, SYNTAX, TOO_LARGE};
+use crate::node::{Node, Placed, span_of};
+use crate::reader::Reader;
 use serde_yaml::options::{DuplicateKeyPolicy, NonFiniteFloatPolicy};
 use serde_yaml::{Error, Location, MessageFormatter, UserMessageFormatter};
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
-
-/// The text is not YAML.
-pub(crate) const SYNTAX: &str = "S0001";
-/// The text is empty.
-pub(crate) const EMPTY: &str = "S0002";
-/// A key occurs twice in a mapping.
-pub(crate) const DUPLICATE_KEY: &str = "S0003";
-/// The text contains several documents.
-pub(crate) const DOCUMENTS: &str = "S0004";
-/// The text is too large, or its aliases make it so.
-pub(crate) const TOO_LARGE: &str = "S0005";
-/// A key is unknown.
-pub const UNKNOWN_KEY: &str = "S0101";
-/// A key is missing.
-pub const MISSING_KEY: &str = "S0102";
-/// A value has the wrong type.
-pub(crate) const TYPE: &str = "S0103";
-/// A word is none of the possible ones.
-pub(crate) const CHOICE: &str = "S0104";
-/// A number has no unit.
-pub(crate) const BARE_NUMBER: &str = "S0201";
-/// A text is not a number with a unit.
-pub(crate) const QUANTITY: &str = "S0202";
-/// A unit does not exist.
-pub(crate) const UNIT: &str = "S0203";
-/// A unit has the wrong dimension.
-pub const DIMENSION: &str = "S0204";
-/// A number is out of range.
-pub const RANGE: &str = "S0301";
-/// A shape is impossible.
-pub(crate) const SHAPE: &str = "S0302";
-/// Rates and times are inconsistent.
-pub(crate) const TIMING: &str = "S0303";
-/// The rig overlaps an object at the start.
-pub(crate) const OVERLAP: &str = "S0304";
-/// A name is invalid.
-pub(crate) const NAME: &str = "S0305";
-/// The rig is inconsistent.
-pub(crate) const RIG: &str = "S0306";
-/// A file cannot be read.
-pub(crate) const FILE: &str = "S0401";
-/// A file contains no outline.
-pub(crate) const OUTLINE: &str = "S0402";
-/// This build has no reader for a file.
-pub(crate) const NOT_BUILT: &str = "S0403";
-/// A sweep would execute a run twice.
-pub const REPEATED: &str = "S0501";
-/// A policy does not accept a value of a sweep.
-pub const UNFIT: &str = "S0502";
-/// A sweep varies a key that another of its keys determines.
-pub const ENTANGLED: &str = "S0503";
 
 /// The largest number of nodes. A scenario has a few dozen nodes, and one with traced shapes has some thousands.
 const MAX_NODES: usize = 50_000;
@@ -64,7 +15,7 @@ const MAX_BYTES: usize = 1 << 20;
 /// first value, and the result includes the diagnostic.
 ///
 /// # Errors
-/// All errors, in the order of the text.
+/// A diagnostic if the text is no YAML document, or if it is too large.
 pub fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Diagnostic>), Vec<Diagnostic>> {
     if source.text.len() > MAX_BYTES {
         let message = format!("the {what} is larger than 1 MiB");
@@ -88,6 +39,19 @@ pub fn parse(source: &Source, what: &str) -> Result<(Placed<Node>, Vec<Diagnosti
             let tree = if is_duplicate { parse(DuplicateKeyPolicy::FirstWins).ok() } else { None };
             tree.map_or(Err(faults.clone()), |tree| Ok((tree, faults)))
         }
+    }
+}
+
+/// The span that represents a text with the root `tree`. An empty text is reported with an example, and gives `None`.
+pub fn root_place(reader: &mut Reader<'_>, tree: &Placed<Node>, what: &str, hint: &'static str) -> Option<Span> {
+    match &tree.value {
+        Node::Mapping(entries) => Some(entries.first().map_or(tree.span, |first| first.key.span)),
+        Node::Null => {
+            let fault = Diagnostic::error(EMPTY, format!("the {what} is empty"), tree.span, "nothing here");
+            reader.report(fault.hint(hint));
+            None
+        }
+        _ => Some(tree.span),
     }
 }
 

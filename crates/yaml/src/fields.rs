@@ -1,10 +1,9 @@
 //! The keys of one mapping.
 
-use super::fault;
-use super::key::Key;
-use super::node::{Entry, Node, Placed};
-use super::reader::Reader;
-use vibrissa_runtime::units::suggest;
+use crate::fault;
+use crate::node::{Entry, Node, Placed};
+use crate::reader::Reader;
+use vibrissa_runtime::units::{Key, suggest};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
 
 /// The keys of a mapping while it is read. A request for a key makes it known. [`finish`](Self::finish) reports unknown
@@ -17,6 +16,8 @@ pub struct Fields<'n> {
     place: Span,
     entries: &'n [Entry],
     known: Vec<&'static str>,
+    /// Keys of an earlier notation, each with the new one.
+    former: Vec<(&'static str, &'static str)>,
     missing: Vec<(&'static str, String)>,
 }
 
@@ -28,11 +29,12 @@ impl<'n> Fields<'n> {
             reader.wrong_type(node, "a mapping", hint);
             return None;
         };
-        Some(Self { what, place, entries, known: Vec::new(), missing: Vec::new() })
+        Some(Self { what, place, entries, known: Vec::new(), former: Vec::new(), missing: Vec::new() })
     }
 
     /// The value of a key, if it exists. The key does not become known by that.
-    pub(crate) fn peek(&self, name: &str) -> Option<&'n Node> {
+    #[must_use]
+    pub fn peek(&self, name: &str) -> Option<&'n Node> {
         self.entries.iter().find(|entry| entry.key.value == name).map(|entry| &entry.value.value)
     }
 
@@ -40,6 +42,11 @@ impl<'n> Fields<'n> {
     pub fn entry(&mut self, name: &'static str) -> Option<&'n Entry> {
         self.known.push(name);
         self.entries.iter().find(|entry| entry.key.value == name)
+    }
+
+    /// Makes a key of an earlier notation known, so that its diagnostic says what to write instead.
+    pub fn former(&mut self, name: &'static str, instead: &'static str) {
+        self.former.push((name, instead));
     }
 
     /// The entry of a required key. `example` is a possible value.
@@ -52,13 +59,13 @@ impl<'n> Fields<'n> {
     }
 
     /// The number of a required key.
-    pub(crate) fn number(&mut self, reader: &mut Reader<'_>, key: &Key) -> Option<Placed<f64>> {
+    pub fn number(&mut self, reader: &mut Reader<'_>, key: &Key) -> Option<Placed<f64>> {
         let entry = self.required(key.name, key.example)?;
         reader.number(&entry.value, key)
     }
 
     /// Writes the number of an optional key into `target`, and returns its span.
-    pub(crate) fn set(&mut self, reader: &mut Reader<'_>, key: &Key, target: &mut f64) -> Option<Span> {
+    pub fn set(&mut self, reader: &mut Reader<'_>, key: &Key, target: &mut f64) -> Option<Span> {
         let entry = self.entry(key.name)?;
         let number = reader.number(&entry.value, key)?;
         *target = number.value;
@@ -74,6 +81,10 @@ impl<'n> Fields<'n> {
                 continue;
             }
             let message = format!("{} has no key `{}`", self.what, key.value);
+            if let Some((_, instead)) = self.former.iter().find(|(name, _)| *name == key.value) {
+                reader.report(Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, "unknown key").hint(*instead));
+                continue;
+            }
             let mut diagnostic = Diagnostic::error(fault::UNKNOWN_KEY, message, key.span, "unknown key");
             // A colon without a blank behind it is a part of the key.
             let joined = key.value.split_once(':').filter(|(name, _)| absent.contains(&name.trim()));
@@ -99,7 +110,8 @@ impl<'n> Fields<'n> {
 }
 
 /// Lists words in backticks for a sentence.
-pub(crate) fn list(words: &[impl AsRef<str>], conjunction: &str) -> String {
+#[must_use]
+pub fn list(words: &[impl AsRef<str>], conjunction: &str) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{}`", word.as_ref())).collect();
     match quoted.split_last() {
         None => String::new(),

@@ -1,6 +1,6 @@
 //! Reading of values from the tree of a text. Errors have the place of the value and words of the configuration.
 
-use std::fmt::Display;
+use std::fmt::{self, Display};
 
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -10,38 +10,50 @@ use serde::de::{
 use serde::forward_to_deserialize_any;
 use vibrissa_runtime::units::suggest;
 
-use super::ConfigError;
-use super::document::{Node, Place, Placed};
+use vibrissa_text::diagnostic::Span;
 
-/// Reads a value from a tree.
-pub(super) fn read<T: DeserializeOwned>(tree: &Placed<Node>) -> Result<T, ConfigError> {
-    T::deserialize(Reader(tree)).map_err(|fault| {
-        let Place { line, column } = fault.place.unwrap_or(tree.place);
-        let message = match fault.key {
-            Some(key) => format!("`{key}`: {}", fault.message),
-            None => fault.message,
-        };
-        ConfigError::At { line, column, message }
-    })
+use crate::node::{Entry, Node, Placed};
+use crate::reader::written;
+
+/// Reads a value of any type from a tree.
+///
+/// # Errors
+/// [`Fault`] with the first value that cannot be read.
+pub fn read_value<T: DeserializeOwned>(tree: &Placed<Node>) -> Result<T, Fault> {
+    T::deserialize(Reader(tree)).map_err(|fault| fault.at(tree.span))
 }
 
-/// A value that cannot be read. Place and key are those of the innermost value that has them.
+/// A value that cannot be read. Its place and key are those of the innermost value that has them.
 #[derive(Debug, thiserror::Error)]
-#[error("{message}")]
-struct Fault {
-    place: Option<Place>,
+pub struct Fault {
+    span: Option<Span>,
     key: Option<String>,
     message: String,
 }
 
+impl Display for Fault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.key {
+            Some(key) => write!(formatter, "`{key}`: {}", self.message),
+            None => formatter.write_str(&self.message),
+        }
+    }
+}
+
 impl Fault {
+    /// The place of the value.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.span.unwrap_or_default()
+    }
+
     fn new(message: String) -> Self {
-        Self { place: None, key: None, message }
+        Self { span: None, key: None, message }
     }
 
     /// The fault of a value at this place.
-    fn at(mut self, place: Place) -> Self {
-        self.place = self.place.or(Some(place));
+    fn at(mut self, span: Span) -> Self {
+        self.span = self.span.or(Some(span));
         self
     }
 
@@ -141,6 +153,14 @@ fn words(found: Unexpected<'_>) -> String {
     }
 }
 
+/// A value of the text in a message.
+fn quoted(node: &Node) -> String {
+    match node {
+        Node::Null | Node::List(_) | Node::Mapping(_) => node.kind().to_owned(),
+        scalar => format!("`{}`", written(scalar)),
+    }
+}
+
 /// The reader of one value.
 #[derive(Clone, Copy)]
 struct Reader<'t>(&'t Placed<Node>);
@@ -154,7 +174,7 @@ impl Reader<'_> {
             Node::Float(float) => visitor.visit_str(&float.to_string()),
             _ => return self.any(visitor),
         };
-        read.map_err(|fault: Fault| fault.at(self.0.place))
+        read.map_err(|fault: Fault| fault.at(self.0.span))
     }
 
     fn any<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
@@ -171,7 +191,7 @@ impl Reader<'_> {
             Node::List(items) => visitor.visit_seq(Items(items.iter())),
             Node::Mapping(entries) => visitor.visit_map(Entries { entries: entries.iter(), value: None }),
         };
-        read.map_err(|fault: Fault| fault.at(self.0.place))
+        read.map_err(|fault: Fault| fault.at(self.0.span))
     }
 
     /// A section without content is one without keys.
@@ -179,10 +199,10 @@ impl Reader<'_> {
         match &self.0.value {
             Node::Null => {
                 let read = visitor.visit_map(Entries { entries: [].iter(), value: None });
-                read.map_err(|fault: Fault| fault.at(self.0.place))
+                read.map_err(|fault: Fault| fault.at(self.0.span))
             }
             // A list has no keys.
-            Node::List(_) => Err(Fault::invalid_type(Unexpected::Seq, &visitor).at(self.0.place)),
+            Node::List(_) => Err(Fault::invalid_type(Unexpected::Seq, &visitor).at(self.0.span)),
             _ => self.any(visitor),
         }
     }
@@ -235,15 +255,15 @@ impl<'de> Deserializer<'de> for Reader<'_> {
                 let word: StrDeserializer<'_, Fault> = text.as_str().into_deserializer();
                 visitor.visit_enum(word)
             }
-            Node::Mapping(entries) if let [(key, value)] = entries.as_slice() => {
+            Node::Mapping(entries) if let [Entry { key, value }] = entries.as_slice() => {
                 visitor.visit_enum(Kind { key, value })
             }
             other => {
                 let list = kinds.iter().map(|kind| format!("`{kind}`")).collect::<Vec<_>>().join(" or ");
-                Err(Fault::new(format!("must be exactly one of {list}, found {}", other.written())))
+                Err(Fault::new(format!("must be exactly one of {list}, found {}", quoted(other))))
             }
         };
-        read.map_err(|fault| fault.at(self.0.place))
+        read.map_err(|fault| fault.at(self.0.span))
     }
 
     forward_to_deserialize_any! {
@@ -269,7 +289,7 @@ impl<'de> SeqAccess<'de> for Items<'_> {
 
 /// The entries of a mapping.
 struct Entries<'t> {
-    entries: std::slice::Iter<'t, (Placed<String>, Placed<Node>)>,
+    entries: std::slice::Iter<'t, Entry>,
     value: Option<(&'t str, &'t Placed<Node>)>,
 }
 
@@ -277,15 +297,15 @@ impl<'de> MapAccess<'de> for Entries<'_> {
     type Error = Fault;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
-        let Some((key, value)) = self.entries.next() else { return Ok(None) };
+        let Some(Entry { key, value }) = self.entries.next() else { return Ok(None) };
         self.value = Some((&key.value, value));
         let word: StrDeserializer<'_, Fault> = key.value.as_str().into_deserializer();
-        seed.deserialize(word).map(Some).map_err(|fault| fault.at(key.place))
+        seed.deserialize(word).map(Some).map_err(|fault| fault.at(key.span))
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
         let (key, value) = self.value.take().ok_or_else(|| Fault::new("a value has no key".to_owned()))?;
-        seed.deserialize(Reader(value)).map_err(|fault| fault.at(value.place).of(key))
+        seed.deserialize(Reader(value)).map_err(|fault| fault.at(value.span).of(key))
     }
 }
 
@@ -301,7 +321,7 @@ impl<'de> EnumAccess<'de> for Kind<'_> {
 
     fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Self), Fault> {
         let word: StrDeserializer<'_, Fault> = self.key.value.as_str().into_deserializer();
-        Ok((seed.deserialize(word).map_err(|fault| fault.at(self.key.place))?, self))
+        Ok((seed.deserialize(word).map_err(|fault| fault.at(self.key.span))?, self))
     }
 }
 
@@ -312,12 +332,12 @@ impl<'de> VariantAccess<'de> for Kind<'_> {
         match &self.value.value {
             Node::Null => Ok(()),
             Node::Mapping(entries) if entries.is_empty() => Ok(()),
-            _ => Err(Fault::new("has no keys".to_owned()).at(self.value.place).of(&self.key.value)),
+            _ => Err(Fault::new("has no keys".to_owned()).at(self.value.span).of(&self.key.value)),
         }
     }
 
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Fault> {
-        seed.deserialize(Reader(self.value)).map_err(|fault| fault.at(self.value.place).of(&self.key.value))
+        seed.deserialize(Reader(self.value)).map_err(|fault| fault.at(self.value.span).of(&self.key.value))
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Fault> {

@@ -1,0 +1,21 @@
+//! Reading of YAML texts: a tree with positions, values with units, and the rig.
+//!
+//! [`parse`] returns a tree in which every node has its span. A [`Reader`] takes values from it and collects diagnostics
+//! instead of stopping at the first. [`rig`] reads a rig, in a scenario and in the configuration of a robot.
+
+mod calibration;
+pub mod fault;
+mod fields;
+mod node;
+mod number;
+mod parse;
+mod reader;
+pub mod rig;
+mod value;
+
+pub use calibration::{CALIBRATION_FORMAT, CalibrationError, read_calibration};
+pub use fields::{Fields, list};
+pub use node::{Entry, Node, Placed};
+pub use parse::{parse, root_place};
+pub use reader::{Files, Reader, written};
+pub use value::{Fault, read_value};
