@@ -3,7 +3,7 @@
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{Command, Sample};
 use vibrissa_world::geometry::{Point2, Pose, unit};
-use vibrissa_world::physics::{MIN_INERTIA, Physics, ShaftModel, light_link};
+use vibrissa_world::physics::{MIN_INERTIA, Physics, ShaftModel, light_shaft};
 use vibrissa_world::solid::Solid;
 use vibrissa_world::world::{Fault, OutOfPlane, Posture, SNAP_OFF_SPEED, World};
 use vibrissa_world::world::{Sensors, raised, whole};
@@ -23,17 +23,18 @@ pub enum MujocoError {
     /// MuJoCo rejected the generated model.
     #[error("MuJoCo refused the generated model: {0}; `vibrissa inspect mjcf` prints the model")]
     Model(String),
-    /// A link of a shaft has less inertia than MuJoCo simulates.
+    /// A shaft is so light that MuJoCo's least inertia would change its dynamics.
     #[error(
-        "the links of whisker `{whisker}` are too light to be simulated by MuJoCo: a moment of inertia of {inertia:.2e} kg m^2, where \
-         {:.0e} kg m^2 is the least; use fewer `links` or a thicker shaft, or run in the world `quasistatic`, which has no inertia",
-        MIN_INERTIA
+        "the links of whisker `{whisker}` are too light to be simulated by MuJoCo: its least moment of inertia of a link, \
+         {MIN_INERTIA:.0e} kg m^2, adds {:.0} % to that of the whisker about its base; use fewer `links` or a thicker shaft, or run in the \
+         world `quasistatic`, which has no inertia",
+        100.0 * share
     )]
     Light {
         /// The whisker.
         whisker: String,
-        /// The moment of inertia of the link (kg m²).
-        inertia: f64,
+        /// The share of the whisker's moment of inertia about its base that is added.
+        share: f64,
     },
     /// The rig has cables, and their plugin is not available.
     #[error(transparent)]
@@ -93,8 +94,8 @@ impl MujocoWorld {
     ) -> Result<Self, MujocoError> {
         prepare_engine()?;
         for whisker in &rig.whiskers {
-            if let Some(inertia) = light_link(&whisker.shaft) {
-                return Err(MujocoError::Light { whisker: whisker.name.clone(), inertia });
+            if let Some(share) = light_shaft(&whisker.shaft) {
+                return Err(MujocoError::Light { whisker: whisker.name.clone(), share });
             }
         }
         if physics.shafts == ShaftModel::Cable {

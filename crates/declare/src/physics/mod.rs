@@ -8,7 +8,7 @@ mod preset;
 mod shaft_model;
 mod solver;
 
-pub use inertia::{MIN_INERTIA, light_link, link_inertia};
+pub use inertia::{MIN_INERTIA, light_shaft, link_inertia};
 pub use integrator::Integrator;
 pub use physics::Physics;
 pub use preset::Preset;

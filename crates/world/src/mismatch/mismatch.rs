@@ -9,7 +9,7 @@ use super::array::{PoseErrors, SensorErrors, TrueArray};
 use super::ranges::{Values, changes};
 use super::whisker::true_whisker;
 use super::{Loss, Property, Ranges};
-use crate::physics::light_link;
+use crate::physics::light_shaft;
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::MAX_WHISKERS;
 use vibrissa_runtime::units::format_si;
@@ -169,7 +169,7 @@ impl Mismatch {
 
     fn check_inertia(&self, assumed: &Whisker) -> Result<(), MismatchError> {
         let shaft = true_whisker(assumed, &self.smallest(assumed)).shaft;
-        match light_link(&shaft) {
+        match light_shaft(&shaft) {
             Some(_) => Err(MismatchError::Light { name: assumed.name.clone() }),
             None => Ok(()),
         }

@@ -3,7 +3,7 @@
 use super::fault;
 use super::reader::Reader;
 use super::{Files, timing};
-use crate::physics::{MIN_INERTIA, Physics, link_inertia};
+use crate::physics::{MIN_INERTIA, Physics, light_shaft};
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::units::{Dimension, format_si};
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
@@ -48,19 +48,12 @@ fn read_tree(reader: &mut Reader<'_>, node: &Placed<Node>, place: Span) -> Optio
     (reader.fault_count() == fault_count).then_some((rig, physics))
 }
 
-/// Checks that the moment of inertia of the last and lightest link is large enough for the simulator. Its mass is then
-/// large enough as well, because no link is longer than 250 mm.
+/// Checks that the simulator's least moment of inertia does not change the dynamics of the whisker.
 fn check_inertia(reader: &mut vibrissa_yaml::Reader<'_>, whisker: &Whisker, place: Span) {
-    let inertia = link_inertia(&whisker.shaft, whisker.shaft.links - 1);
-    if inertia >= MIN_INERTIA {
-        return;
-    }
-    let kilogram_metres = |moment| format_si(moment, Dimension::INERTIA);
-    let label = format!(
-        "a link has a moment of inertia of {} about its centre, and needs {}",
-        kilogram_metres(inertia),
-        kilogram_metres(MIN_INERTIA)
-    );
+    let Some(share) = light_shaft(&whisker.shaft) else { return };
+    let least = format_si(MIN_INERTIA, Dimension::INERTIA);
+    let label =
+        format!("a link has at least {least} there, which adds {:.0} % to the whisker's inertia", 100.0 * share);
     let fault = Diagnostic::error(fault::RIG, "the links are too light to be simulated by MuJoCo", place, label);
     reader.report(fault.hint(
         "use fewer `links`, or a thicker, longer or denser shaft; or write `world: quasistatic`, a simulator without inertia",
