@@ -204,7 +204,11 @@ mod tests {
                 if tick > 150 && first.abs() + second.abs() > 2e-6 {
                     // The two had 5 s to differ.
                     prop_assert!((offsets.value(1) - second - drift).abs() < 3e-7, "{time} s");
-                    prop_assert!((offsets.value(0) - first - drift).abs() < 2.5e-6, "{time} s: {}", offsets.value(0) - first - drift);
+                    // The readings of these 5 s determine a line, whose deviation at a later time follows from its slope's. The
+                    // filter expects more noise than there is, so it lags by a part of the tolerated offset.
+                    let deviation = noise * (12.0_f64 / 150.0).sqrt() * (time - 2.5) / 5.0;
+                    let (most, error) = (5.0 * deviation + TOLERATED / 2.0, offsets.value(0) - first - drift);
+                    prop_assert!(error.abs() < most, "{time} s: {error}");
                 }
             }
         }
@@ -246,7 +250,7 @@ mod tests {
         }
 
         #[test]
-        fn a_touch_that_begins_slowly_is_no_offset(first in -5e-6..5e-6_f64, rate in 2e-7..2e-6_f64, away in 0..400_u32) {
+        fn a_touch_that_begins_slowly_is_no_offset(first in -5e-6..5e-6_f64, rate in 2e-7..2e-6_f64, away in prop_oneof![Just(0), 0..400_u32]) {
             let mut offsets = Offsets::new(2);
             for whisker in [0, 1] {
                 (0..90).for_each(|_| offsets.add(whisker, Some(free(first, 0.0, 1e-8))));
@@ -258,7 +262,13 @@ mod tests {
             let before = offsets.value(0);
             (1..4).for_each(|tick| offsets.add(0, Some(free(first + f64::from(tick) * rate, 0.0, 1e-8))));
             offsets.add(0, None);
-            prop_assert_eq!(offsets.value(0).to_bits(), before.to_bits());
+            let after = offsets.value(0);
+            if away == 0 {
+                // The last readings in free air still waited, and are measured while the touch begins.
+                prop_assert!((after - first).abs() <= (before - first).abs(), "from {before} to {after}, and not to {first}");
+            } else {
+                prop_assert_eq!(after.to_bits(), before.to_bits());
+            }
         }
 
         #[test]
