@@ -56,7 +56,7 @@ pub static KEYS: &[RigKey] = &[
     K::new("whiskers.*.out_of_plane", Whisker(Number(|it| &mut it.shaft.out_of_plane)), D::NUMBER, (1e-3, 1e3), "4",
         "ratio of the bending stiffness out of the plane to that in the plane, for spatial whiskers. It is more than 1 for a ribbon on edge").simulated(),
     K::new("whiskers.*.links", Whisker(Count(|it| &mut it.shaft.links)), D::NUMBER, (4.0, 64.0), "16",
-        "number of rigid links in the [model of the shaft](decisions/0006-whisker-is-a-chain.md)"),
+        "number of rigid links in the [model of the shaft](decisions/whisker-model.md#the-whisker-is-a-chain-of-links)"),
     K::new("whiskers.*.hinge.stiffness", Whisker(Number(|it| &mut it.hinge.stiffness)), D::TORSION_STIFFNESS, (1e-6, 1e6), "1 N m/rad",
         "stiffness of the hinge"),
     K::new("whiskers.*.hinge.damping", Whisker(Number(|it| &mut it.hinge.damping)), D::TORSION_DAMPING, (0.0, 1e3), "0.01 N m s/rad",
