@@ -6,6 +6,12 @@
 //! - [`inspect`] looks into a running policy, `recording` keeps and replays runs.
 //! - [`calibration`] fits measured whiskers, [`emulated`] runs trials with the robot's loop.
 //! - [`report`] makes tables, pages and pictures of all of them.
+//!
+//! # Where to begin
+//!
+//! A family of scenes is a file of `family`, a column of a table an entry of the crate `declare`, a chart a file of `report/chart`.
+//! `docs/howto/extend.md` has the steps. Read `docs/decisions/scores.md` before you change [`score`], because published figures
+//! depend on it.
 
 pub mod built_in;
 pub mod calibration;

@@ -12,6 +12,12 @@
 //! - `format` formats texts. `description` reads comments of items. `index` answers questions of editors.
 //! - `server` is the language server.
 //! - `builtins` has the tables of members and functions. `docs/language.md` introduces the language to users.
+//!
+//! # Where to begin
+//!
+//! A text of an editor is in the table of words, a message next to its error in `lower` or `analysis`, a function of policies in
+//! `builtins`. A new warning is a file of `analysis`. Read `docs/decisions/compiler.md` before you change `lower` or `optimise`,
+//! because the bits of all results and the bounds of a tick depend on them. `tests/policy` has a second, independent interpreter.
 
 // The code that pest writes for a grammar without `std` names it.
 extern crate alloc;

@@ -1,6 +1,11 @@
 //! The MuJoCo simulator: its model of a scene, the pruning of the model, and the world.
 //!
 //! The model and the pruning do not need the library. The world requires the feature `sim`.
+//!
+//! # Where to begin
+//!
+//! `mjcf.rs` writes the model. `prune` decides what of a scene is simulated, and its tests compare with the whole scene. Read
+//! `docs/decisions/mujoco.md` and `docs/decisions/mujoco-speed.md` before you change a step or a tolerance.
 
 #[cfg(feature = "sim")]
 mod broad_phase;

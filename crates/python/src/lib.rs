@@ -1,4 +1,9 @@
 //! The native part of the Python package `vibrissa`. `docs/python.md` describes the package.
+//!
+//! # Where to begin
+//!
+//! A function here converts arguments, calls the crate `lab` and converts its result. A class has its text for editors in
+//! `python/vibrissa/_native.pyi`, which a test compares with the module.
 #![allow(clippy::needless_pass_by_value, reason = "functions for Python own what they receive")]
 
 mod arrays;

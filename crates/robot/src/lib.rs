@@ -14,6 +14,11 @@
 //!
 //! Each task is a step function of the time. On a robot, the threads of `program` call it. In the `emulation`, a scheduler
 //! calls it in emulated time, with emulated sensors on emulated buses.
+//!
+//! # Where to begin
+//!
+//! A fault that a robot should detect begins as a kind of `emulation`, which the fault campaign then injects. Its detection belongs to
+//! `drive`, its name to `fault.rs`. Read `docs/decisions/robot.md` before you change what stops the robot.
 
 pub mod admission;
 pub mod array;

@@ -60,6 +60,12 @@
 //!
 //! Lengths are in metres, angles in radians, times in seconds and forces in newtons. Angles are positive
 //! counter-clockwise. The pages `docs/rig.md` and `docs/glossary.md` of the repository define frames, signs and terms.
+//!
+//! # Where to begin
+//!
+//! A contact estimator is a file of `percept`, with the steps of `docs/howto/extend.md`. The closed forms of bent shafts are in
+//! `mechanics`. Nothing of a tick may allocate, read a clock or depend on the target: tests count allocations and compare bits, so
+//! functions such as sine come from `math`.
 
 pub mod calibration;
 pub mod control;

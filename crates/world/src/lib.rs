@@ -5,6 +5,12 @@
 //! - [`physics`] has the settings of a simulation, and [`mismatch`] the differences between the simulated and the assumed array.
 //! - [`world`] has the trait [`world::World`] of simulators, and what is the same for all of them.
 //! - [`quasi_static`] is the simulator without a library. The other one is the crate `vibrissa-mujoco`.
+//!
+//! # Where to begin
+//!
+//! An object with another outline is a reader in `scenario` that makes pieces of `solid`. A format of drawings is a file of `outline`.
+//! A simulator implements [`world::World`], as `examples/write_world.rs` shows. Read `docs/decisions/whisker-model.md` before you
+//! change the equations of [`quasi_static`], because perception has the same ones.
 
 pub mod geometry;
 pub mod mismatch;

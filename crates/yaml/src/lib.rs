@@ -2,6 +2,10 @@
 //!
 //! [`parse`] returns a tree in which every node has its span. A [`Reader`] takes values from it and collects diagnostics
 //! instead of stopping at the first. [`rig`] reads a rig, in a scenario and in the configuration of a robot.
+//!
+//! # Where to begin
+//!
+//! A value with a new form is a function of `value.rs`. The keys of a rig are not here: they are entries of the crate `declare`.
 
 mod calibration;
 pub mod fault;
