@@ -86,6 +86,7 @@
 //! | `render` | no | `run --video`, videos of runs. It needs EGL |
 //! | `viewer` | no | `run --view`, MuJoCo's window during a run |
 //! | `outlines` | no | outlines from SVG, DXF, CSV and STL files |
+//! | `standard-library` | no | the standard library of policies, which only the command has by itself |
 //!
 //! Without `sim`, everything except the MuJoCo simulator works. No library is necessary then.
 //!

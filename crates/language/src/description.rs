@@ -9,7 +9,7 @@ use super::format;
 use super::load::Files;
 use super::lower::Lowered;
 use super::scan::{is_word, scan_all};
-use super::word::reserved;
+use super::words::reserved;
 use vibrissa_runtime::machine::{Contract, DESCRIPTION_LIMIT};
 
 /// The description of the item whose name is at `name`: the comment at the end of its line, or else the comment lines

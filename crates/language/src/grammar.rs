@@ -11,9 +11,10 @@ use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 
 use super::parse_tree::{self, Match};
 use super::scan::{is_word, scan};
-use super::standard::MODULES;
+use super::standard::modules;
 use super::syntax_error::syntax_error;
-use super::word::{Word, is_before_value, word};
+use super::word::Word;
+use super::words::{is_before_value, word};
 
 /// The maximum nesting depth of brackets. It bounds the recursion of the parser, and no realistic policy reaches it.
 const NESTING_LIMIT: usize = 64;
@@ -32,11 +33,11 @@ mod derived {
 pub(super) use derived::Rule;
 
 /// The matches in the modules of the standard library. They never change, and are a third of all parsed text.
-static STANDARD: [OnceLock<Vec<Match>>; MODULES.len()] = [const { OnceLock::new() }; MODULES.len()];
+static STANDARD: LazyLock<Vec<OnceLock<Vec<Match>>>> = LazyLock::new(|| vec![OnceLock::new(); modules().len()]);
 
 /// The matches in a module of the standard library, if the text is one.
 fn standard(source: &Source) -> Option<&'static [Match]> {
-    let (_, found) = MODULES.iter().zip(&STANDARD).find(|((_, text), _)| *text == source.text)?;
+    let (_, found) = modules().iter().zip(STANDARD.iter()).find(|((_, text), _)| *text == source.text)?;
     if found.get().is_none() {
         // Another thread may have stored the same result first.
         let _ = found.set(parse_tree::flatten(parse(source).ok()?));
@@ -150,7 +151,7 @@ pub(super) fn is_before_expression(token: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::word::WORDS;
+    use crate::words::WORDS;
 
     #[test]
     fn every_word_of_the_grammar_is_in_the_table() {

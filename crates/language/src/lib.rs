@@ -43,6 +43,7 @@ mod parse_tree;
 mod path;
 mod recover;
 mod scan;
+mod scopes;
 #[cfg(feature = "server")]
 pub mod server;
 mod standard;
@@ -55,13 +56,15 @@ mod unit;
 mod word;
 #[cfg(test)]
 mod word_reference;
+mod words;
 
 pub use analysis::ProvedContract;
 pub use defaults::with_defaults;
 pub use format::format;
 pub use load::Library;
+pub use scopes::scopes;
+pub use standard::{Module, install};
 pub use test::{Expectation, ParameterRange, PlotFigure, PolicyTest, RunFigure, TestScenes};
-pub use word::scopes;
 
 use load::{Files, Loaded};
 use vibrissa_runtime::machine::{Artifact, Program};

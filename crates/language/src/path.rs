@@ -5,7 +5,7 @@ use std::path::Path;
 use vibrissa_text::diagnostic::Diagnostic;
 
 use super::ast::{From, Use};
-use super::standard::{MODULES, ROOT, text};
+use super::standard::{ROOT, modules, text};
 use super::suggestion::did_you_mean;
 
 /// The name of the file that `used` means in the file `using`: `std.` and a module, or a path.
@@ -24,7 +24,7 @@ pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>
             }
         },
         From::Module(names) => {
-            let known = MODULES.map(|(module, _)| format!("{ROOT}.{module}"));
+            let known: Vec<String> = modules().iter().map(|(module, _)| format!("{ROOT}.{module}")).collect();
             let written = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".");
             if known.contains(&written) {
                 return Ok(written);
@@ -32,12 +32,13 @@ pub(super) fn resolve(using: &str, used: &Use) -> Result<String, Box<Diagnostic>
             let message = format!("there is no module `{written}`");
             let diagnostic = Diagnostic::error("P0601", message, used.span, "unknown module");
             let diagnostic = did_you_mean(diagnostic, &written, known.iter().map(String::as_str));
-            let list = known.map(|module| format!("`{module}`")).join(", ");
-            Err(Box::new(
-                diagnostic
-                    .hint(format!("the standard library has {list}"))
-                    .hint("your own files are in quotes: `use \"laws/corner.fsm\"`"),
-            ))
+            let list = known.iter().map(|module| format!("`{module}`")).collect::<Vec<_>>().join(", ");
+            let has = if list.is_empty() {
+                "this program has no standard library: it needs the feature `standard-library`".to_owned()
+            } else {
+                format!("the standard library has {list}")
+            };
+            Err(Box::new(diagnostic.hint(has).hint("your own files are in quotes: `use \"laws/corner.fsm\"`")))
         }
     }
 }

@@ -15,7 +15,8 @@ use super::ast::File;
 use super::grammar::{brackets, is_before_expression, is_keyword};
 use super::parse::parse;
 use super::scan::{Lexeme, are_braces_balanced, is_word, scan};
-use super::word::{Word, reserved, word};
+use super::word::Word;
+use super::words::{reserved, word};
 
 /// The maximum number of parses of a text.
 const ATTEMPTS: usize = 20;

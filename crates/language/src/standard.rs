@@ -1,34 +1,37 @@
-//! The standard library: laws, derived values, behaviours and monitors that are built into the program.
+//! The standard library: laws, derived values, behaviours and monitors that every policy can use.
+
+use std::sync::OnceLock;
 
 /// The prefix of the modules' names.
 pub(super) const ROOT: &str = "std";
 
+/// The name and the text of a module.
+pub type Module = (&'static str, &'static str);
+
+/// The modules that are a part of this crate.
+#[cfg(any(test, feature = "standard-library"))]
+const OWN: &[Module] = &include!("../std/modules.rs");
+#[cfg(not(any(test, feature = "standard-library")))]
+const OWN: &[Module] = &[];
+
+static MODULES: OnceLock<&'static [Module]> = OnceLock::new();
+
+/// Gives the program its standard library. Only a program without the feature `standard-library` needs it.
+///
+/// Such a program is built again in seconds after a change of these texts, because no library contains them. The first
+/// texts stay, also those that the feature gave to a compilation before this call.
+pub fn install(modules: &'static [Module]) {
+    MODULES.get_or_init(|| modules);
+}
+
 /// The modules with their texts, in alphabetical order.
-pub(super) const MODULES: [(&str, &str); 19] = [
-    ("contact", include_str!("../std/contact.fsm")),
-    ("convexity", include_str!("../std/convexity.fsm")),
-    ("corridor", include_str!("../std/corridor.fsm")),
-    ("explore", include_str!("../std/explore.fsm")),
-    ("feelers", include_str!("../std/feelers.fsm")),
-    ("first_contact", include_str!("../std/first_contact.fsm")),
-    ("following", include_str!("../std/following.fsm")),
-    ("guards", include_str!("../std/guards.fsm")),
-    ("mounting", include_str!("../std/mounting.fsm")),
-    ("object", include_str!("../std/object.fsm")),
-    ("obstacle", include_str!("../std/obstacle.fsm")),
-    ("platform", include_str!("../std/platform.fsm")),
-    ("retrieval", include_str!("../std/retrieval.fsm")),
-    ("search", include_str!("../std/search.fsm")),
-    ("senses", include_str!("../std/senses.fsm")),
-    ("shaft", include_str!("../std/shaft.fsm")),
-    ("sweep", include_str!("../std/sweep.fsm")),
-    ("swipe", include_str!("../std/swipe.fsm")),
-    ("tunnel", include_str!("../std/tunnel.fsm")),
-];
+pub(super) fn modules() -> &'static [Module] {
+    MODULES.get_or_init(|| OWN)
+}
 
 /// The text of a module.
 pub(super) fn text(module: &str) -> Option<&'static str> {
-    MODULES.iter().find(|(name, _)| *name == module).map(|&(_, text)| text)
+    modules().iter().find(|(name, _)| *name == module).map(|&(_, text)| text)
 }
 
 /// The module that contains a law, derived value, behaviour, monitor or type of this name.
@@ -37,7 +40,7 @@ pub(super) fn module_with(name: &str) -> Option<&'static str> {
         let rest = ["law ", "let ", "behaviour ", "monitor ", "type "].iter().find_map(|word| line.strip_prefix(word));
         rest.and_then(|rest| rest.strip_prefix(name)).is_some_and(|rest| rest.starts_with(['(', ' ']))
     };
-    MODULES.iter().find(|(_, text)| text.lines().any(gives)).map(|&(module, _)| module)
+    modules().iter().find(|(_, text)| text.lines().any(gives)).map(|&(module, _)| module)
 }
 
 #[cfg(test)]
@@ -48,8 +51,8 @@ mod tests {
 
     #[test]
     fn no_module_has_a_fault_since_compiling_what_uses_it_does_not_look_for_one() {
-        for (module, text) in MODULES {
-            let checked = check(&Source::new(module, text));
+        for (module, text) in modules() {
+            let checked = check(&Source::new(*module, *text));
             assert!(matches!(checked, Ok(Checked::Library { .. })), "{module}: {checked:?}");
         }
     }

@@ -8,7 +8,8 @@ use super::foreign_syntax::advice_for;
 use super::grammar::{Rule, brackets, is_keyword, word_of};
 use super::scan::is_word;
 use super::suggestion::did_you_mean;
-use super::word::{Position, Word, reserved, word, words_at};
+use super::word::{Position, Word};
+use super::words::{reserved, word, words_at};
 
 /// The mark that some editors write at the beginning of a file.
 const BYTE_ORDER_MARK: &str = "\u{feff}";

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::word::{Position, WORDS, Word};
+use super::word::{Position, Word};
+use super::words::WORDS;
 
 const INTRODUCTION: &str = "
 ## Words

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::ast::{Argument, Behaviour, Content, Name};
 use crate::description::{description, whole_description};
 use crate::parse::parse;
-use crate::standard::{MODULES, ROOT};
+use crate::standard::{ROOT, modules};
 use crate::types::{DIMENSIONS, Type};
 use crate::unit::units_of;
 use crate::word_reference::words;
@@ -140,8 +140,8 @@ fn families(page: &mut String) {
 /// The standard library, described by the comments in its files.
 fn standard(page: &mut String) {
     *page += "\n## The standard library\n";
-    for (module, text) in MODULES {
-        let source = Source::new(module, text);
+    for (module, text) in modules() {
+        let source = Source::new(*module, *text);
         let file = parse(&source, 0).unwrap_or_else(|fault| panic!("{module}: {fault:?}"));
         let about =
             text.lines().take_while(|line| line.starts_with('#')).map(|line| line.trim_start_matches(['#', ' ']));

@@ -1,7 +1,8 @@
 //! Groups of tokens: operators with operands, brackets, blocks, statements.
 
 use crate::token::{Kind, Token};
-use crate::word::{Word, reserved};
+use crate::word::Word;
+use crate::words::reserved;
 
 /// The role of a token among its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

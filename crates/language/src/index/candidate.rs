@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::ast::{Name, TypeName};
 use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS, MemberSource};
-use crate::standard::{MODULES, ROOT};
+use crate::standard::{self, ROOT};
 use crate::types::{Compound, DIMENSIONS, PLAIN_TYPES, Type};
 use crate::unit::units_of;
 use vibrissa_declare::catalogue;
@@ -17,7 +17,8 @@ use super::import::{exports, heading};
 use super::operands::Owner;
 use super::symbol::{Symbol, SymbolKind};
 use super::{Index, text};
-use crate::word::{Position, Word, word, words_at};
+use crate::word::{Position, Word};
+use crate::words::{word, words_at};
 
 /// The kind of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -286,7 +287,7 @@ fn functions() -> impl Iterator<Item = Candidate> {
 
 /// The modules of the standard library, after the typed prefix.
 fn modules(prefix: &str) -> impl Iterator<Item = Candidate> {
-    MODULES.iter().map(move |(module, text)| {
+    standard::modules().iter().map(move |(module, text)| {
         let label = format!("{prefix}{module}");
         Candidate {
             kind: CandidateKind::Module,

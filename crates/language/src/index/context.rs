@@ -2,7 +2,8 @@
 
 use crate::scan::are_braces_balanced;
 use crate::token::{Kind as TokenKind, Token, tokens};
-use crate::word::{Word, word};
+use crate::word::Word;
+use crate::words::word;
 use vibrissa_declare::catalogue;
 use vibrissa_text::diagnostic::Span;
 

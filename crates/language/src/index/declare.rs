@@ -12,7 +12,8 @@ use vibrissa_text::diagnostic::Span;
 
 use super::symbol::{Symbol, SymbolKind};
 use super::type_name::type_name;
-use crate::word::{Position, word};
+use crate::word::Position;
+use crate::words::word;
 
 /// The content of a pair of braces, or the text outside of all braces.
 #[derive(Debug, Clone, Default)]

@@ -10,7 +10,7 @@ use vibrissa_text::diagnostic::Span;
 use super::Index;
 use super::import::{exports, heading};
 use super::symbol::{Meaning, Symbol, SymbolKind};
-use crate::word::word;
+use crate::words::word;
 
 /// The maximum length of a line that is searched for a comment (bytes). It bounds the time for a text with many names.
 const LINE_LIMIT: usize = 4096;

@@ -14,7 +14,8 @@ use super::import::Import;
 use super::operands::{Operands, Owner};
 use super::symbol::{Meaning, Role, Symbol, SymbolKind, Use};
 use super::type_name::type_name;
-use crate::word::{Position, Word, word};
+use crate::word::{Position, Word};
+use crate::words::word;
 
 /// The words of a text with their meanings, in the order of the text.
 #[derive(Debug, Clone, Default, PartialEq)]

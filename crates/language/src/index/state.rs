@@ -9,7 +9,8 @@ use super::candidate::{Candidate, of_keyword};
 use super::context::Context;
 use super::declare::behaviour_around;
 use super::symbol::SymbolKind;
-use crate::word::{Position, words_at};
+use crate::word::Position;
+use crate::words::words_at;
 
 impl Index {
     /// Candidates after `->`.

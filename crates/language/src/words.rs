@@ -1,177 +1,17 @@
-//! The words of the language: allowed positions, notation, meaning.
+//! The words of the language, and how to find them.
 //!
 //! All other lists of words follow from this table and from the rules of the grammar: completion, recovery from syntax
 //! errors, the names in their messages, and the colours of editors.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::builtins::FUNCTIONS;
 use super::grammar::is_keyword;
 use super::index::Expected;
-use super::types::{DIMENSIONS, PLAIN_TYPES};
-use vibrissa_runtime::units::{Dimension, units_of};
-
-/// A position in which a word is allowed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Position {
-    /// At the beginning of a file.
-    File,
-    /// Outside of all braces.
-    Item,
-    /// Outside of all braces in a library.
-    Library,
-    /// In the braces of a state.
-    State,
-    /// In the braces of a test or a property.
-    Test,
-    /// In any braces.
-    Statement,
-    /// Within a statement.
-    Inside,
-    /// At a value.
-    Value,
-    /// At a value in a test.
-    Run,
-    /// At the name of a state.
-    Target,
-    /// After `mark`.
-    Mark,
-    /// After `needs`.
-    Need,
-    /// After `by`.
-    TipModel,
-    /// After the title of a property.
-    Property,
-    /// After the `=` of a type.
-    Type,
-}
-
-/// The role of a word, which editors show by its colour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Role {
-    /// It begins a declaration.
-    Declaration,
-    /// It begins or joins a part of the control flow.
-    Control,
-    /// It belongs to a command or another action.
-    Action,
-    /// It joins values.
-    Operator,
-    /// It is a value that never changes.
-    Constant,
-    /// It is another value.
-    Variable,
-}
-
-/// The grammatical properties of a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Class {
-    role: Role,
-    positions: &'static [Position],
-    /// What follows the word. `None` if the word may end a statement.
-    next: Option<Expected>,
-}
-
-impl Class {
-    const fn new(role: Role, positions: &'static [Position], next: Expected) -> Self {
-        Self { role, positions, next: Some(next) }
-    }
-
-    /// The class of a word that is followed by `next`.
-    const fn before(self, next: Expected) -> Self {
-        Self { next: Some(next), ..self }
-    }
-
-    /// The class of a word that may end a statement.
-    const fn complete(self) -> Self {
-        Self { next: None, ..self }
-    }
-}
-
-/// A word of the language.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Word {
-    pub(super) text: &'static str,
-    class: Class,
-    /// The text to insert, with placeholders `${1:…}`.
-    pub(super) snippet: &'static str,
-    pub(super) meaning: &'static str,
-}
-
-impl Word {
-    /// Where the word is allowed.
-    pub(super) fn positions(&self) -> &'static [Position] {
-        self.class.positions
-    }
-
-    pub(super) fn is_at(&self, position: Position) -> bool {
-        self.positions().contains(&position)
-    }
-
-    /// True if the word is allowed in this position only.
-    pub(super) fn is_only_at(&self, position: Position) -> bool {
-        self.class.positions == [position]
-    }
-
-    /// What follows the word. `None` if the word may end a statement.
-    pub(super) fn next(&self) -> Option<Expected> {
-        self.class.next
-    }
-
-    /// True if a statement, a transition or an item begins with the word.
-    pub(super) fn begins(&self) -> bool {
-        self.begins_item() || self.begins_part() || self.is_at(Position::Statement)
-    }
-
-    /// True if an item begins with the word.
-    pub(super) fn begins_item(&self) -> bool {
-        self.class.role == Role::Declaration && (self.is_at(Position::File) || self.is_at(Position::Item))
-    }
-
-    /// True if a statement other than a declaration begins with the word.
-    pub(super) fn begins_statement(&self) -> bool {
-        self.class.role != Role::Declaration && self.is_at(Position::Statement)
-    }
-
-    /// True if a part of a state or a test begins with the word.
-    pub(super) fn begins_part(&self) -> bool {
-        self.is_at(Position::State) || self.is_at(Position::Test)
-    }
-
-    /// True if the word can begin a continuation line.
-    pub(super) fn continues(&self) -> bool {
-        self.is_at(Position::Inside) || self.is_at(Position::Value)
-    }
-
-    /// True if the word is a value by itself.
-    pub(super) fn is_value(&self) -> bool {
-        self.is_at(Position::Value) && self.next().is_none()
-    }
-
-    /// True if the word is an operator.
-    pub(super) fn is_operator(&self) -> bool {
-        self.class.role == Role::Operator
-    }
-
-    /// The notation: the snippet without its placeholders' marks.
-    pub(super) fn usage(&self) -> String {
-        let mut usage = String::new();
-        for (index, part) in self.snippet.split("${").enumerate() {
-            match part.split_once('}').filter(|_| index > 0) {
-                Some((field, rest)) => {
-                    usage += field.split_once(':').map_or("\u{2026}", |(_, name)| name);
-                    usage += rest;
-                }
-                None => usage += part,
-            }
-        }
-        usage
-    }
-}
+use super::word::{Class, Position, Role, Word};
 
 const fn entry(text: &'static str, class: Class, snippet: &'static str, meaning: &'static str) -> Word {
-    Word { text, class, snippet, meaning }
+    Word::new(text, class, snippet, meaning)
 }
 
 const FILE: Class = Class::new(Role::Declaration, &[Position::File], Expected::Nothing);
@@ -591,17 +431,6 @@ pub(super) const WORDS: [Word; 81] = [
     ),
 ];
 
-/// The dimensions whose units are the factors of all others.
-const BASES: [Dimension; 7] = [
-    Dimension::LENGTH,
-    Dimension::ANGLE,
-    Dimension::TIME,
-    Dimension::MASS,
-    Dimension::FREQUENCY,
-    Dimension::FORCE,
-    Dimension::PRESSURE,
-];
-
 /// The words by their texts. Of two with the same text, the first.
 static BY_TEXT: LazyLock<HashMap<&str, &Word>> =
     LazyLock::new(|| WORDS.iter().rev().map(|word| (word.text, word)).collect());
@@ -624,41 +453,4 @@ pub(super) fn is_before_value(text: &str) -> bool {
 /// The words that are allowed in a position.
 pub(super) fn words_at(position: Position) -> impl Iterator<Item = &'static Word> {
     WORDS.iter().filter(move |word| word.is_at(position))
-}
-
-/// The words of the language by the scopes of a `TextMate` grammar, in which editors show them: keywords, types, units
-/// and functions.
-#[must_use]
-pub fn scopes() -> BTreeMap<&'static str, Vec<String>> {
-    let mut scopes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    let types = PLAIN_TYPES.iter().copied().filter(|name| !is_keyword(name));
-    let types = types.chain(DIMENSIONS.iter().map(|&(name, _)| name));
-    scopes.insert("support.type.fsm", types.map(str::to_owned).collect());
-    scopes.insert("keyword.other.unit.fsm", BASES.into_iter().flat_map(units_of).collect());
-    scopes.insert("support.function.fsm", FUNCTIONS.iter().map(|&(name, ..)| name.to_owned()).collect());
-    for word in WORDS.iter().filter(|&entry| reserved(entry.text) == Some(entry)) {
-        let scope = match word.class.role {
-            Role::Declaration => "storage.type.fsm",
-            Role::Control => "keyword.control.fsm",
-            Role::Action => "keyword.other.fsm",
-            Role::Operator => "keyword.operator.logical.fsm",
-            Role::Constant => "constant.language.fsm",
-            Role::Variable => "variable.language.fsm",
-        };
-        scopes.entry(scope).or_default().push(word.text.to_owned());
-    }
-    scopes
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_usage_of_a_word_is_its_snippet_in_plain_text() {
-        let usage = |text| word(text).map(Word::usage);
-        assert_eq!(usage("do").as_deref(), Some("do law(w)"));
-        assert_eq!(usage("hold").as_deref(), Some("hold"));
-        assert_eq!(usage("if").as_deref(), Some("if condition {\n  \u{2026}\n}"));
-    }
 }

@@ -1,0 +1,22 @@
+// The modules of the standard library with their texts, in alphabetical order. The program and the language include this file.
+[
+    ("contact", include_str!("contact.fsm")),
+    ("convexity", include_str!("convexity.fsm")),
+    ("corridor", include_str!("corridor.fsm")),
+    ("explore", include_str!("explore.fsm")),
+    ("feelers", include_str!("feelers.fsm")),
+    ("first_contact", include_str!("first_contact.fsm")),
+    ("following", include_str!("following.fsm")),
+    ("guards", include_str!("guards.fsm")),
+    ("mounting", include_str!("mounting.fsm")),
+    ("object", include_str!("object.fsm")),
+    ("obstacle", include_str!("obstacle.fsm")),
+    ("platform", include_str!("platform.fsm")),
+    ("retrieval", include_str!("retrieval.fsm")),
+    ("search", include_str!("search.fsm")),
+    ("senses", include_str!("senses.fsm")),
+    ("shaft", include_str!("shaft.fsm")),
+    ("sweep", include_str!("sweep.fsm")),
+    ("swipe", include_str!("swipe.fsm")),
+    ("tunnel", include_str!("tunnel.fsm")),
+]
