@@ -35,7 +35,7 @@ param target = 150 urad in 50 .. 300 urad
 initial Following
 state Following {
   if r0.touching { record r0 }
-  steer body along direction(body.yaw - (1 - |r0.deflection| / target) * 20 deg) at 50 mm/s facing 90 deg
+  steer body along direction(body.yaw - (1 - |r0.base_angle| / target) * 20 deg) at 50 mm/s facing 90 deg
 }
 ";
 

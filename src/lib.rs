@@ -32,7 +32,7 @@
 //!     }
 //!     state Following {
 //!       record r0
-//!       if |r0.deflection| < 150 urad {
+//!       if |r0.base_angle| < 150 urad {
 //!         steer body along direction(body.yaw - 15 deg) at 50 mm/s turning -10 deg/s
 //!       } else {
 //!         steer body along direction(body.yaw + 25 deg) at 50 mm/s turning 3 deg/s

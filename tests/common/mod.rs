@@ -16,7 +16,7 @@ use vibrissa_text::diagnostic::{Colour, Source, terminal};
 pub struct Feel {
     pub touching: bool,
     pub ready: bool,
-    pub deflection: f64,
+    pub base_angle: f64,
     pub side: f64,
     pub sense: f64,
     pub tangent: Vector2,
@@ -24,7 +24,7 @@ pub struct Feel {
 
 impl Default for Feel {
     fn default() -> Self {
-        Self { touching: false, ready: true, deflection: 0.0, side: 1.0, sense: 0.0, tangent: Vector2::new(1.0, 0.0) }
+        Self { touching: false, ready: true, base_angle: 0.0, side: 1.0, sense: 0.0, tangent: Vector2::new(1.0, 0.0) }
     }
 }
 
@@ -94,7 +94,7 @@ impl Senses for Script {
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
         let feel = self.feel(whisker);
         match quantity {
-            WhiskerScalar::BaseAngle => feel.deflection,
+            WhiskerScalar::BaseAngle => feel.base_angle,
             WhiskerScalar::Touching => f64::from(u8::from(feel.touching)),
             WhiskerScalar::Side => feel.side,
             WhiskerScalar::Sense => feel.sense,
@@ -119,8 +119,8 @@ impl Senses for Script {
         }
     }
 
-    fn tip_at(&self, whisker: usize, deflection: f64) -> Vector2 {
-        Vector2::new(whisker as f64, deflection)
+    fn tip_at(&self, whisker: usize, base_angle: f64) -> Vector2 {
+        Vector2::new(whisker as f64, base_angle)
     }
 
     fn contour_at(&self, whisker: usize, back: f64, quantity: ContourVector) -> Vector2 {

@@ -38,7 +38,7 @@ fn codes_between<'t>(text: &'t str, before: &'t str, behind: &'t str) -> impl It
 /// The sources without the tests in them.
 fn sources() -> Vec<String> {
     let product = |text: String| text.split("#[cfg(test)]").next().unwrap().to_owned();
-    let folders = ["crates/language/src", "crates/world/src", "crates/lab/src", "src"];
+    let folders = ["crates/language/src", "crates/yaml/src", "crates/world/src", "crates/lab/src", "src"];
     folders.iter().flat_map(|folder| texts(folder, ".rs")).map(product).collect()
 }
 

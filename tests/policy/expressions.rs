@@ -260,7 +260,7 @@ proptest! {
         (side, sense, x, y) in (number(), number(), number(), number()),
         (touching, ready) in any::<(bool, bool)>(),
     ) {
-        let feel = Feel { touching, ready, deflection: 0.0, side, sense, tangent: Vector2::new(x, y) };
+        let feel = Feel { touching, ready, base_angle: 0.0, side, sense, tangent: Vector2::new(x, y) };
         let mut grower = Grower { bytes: bytes.iter(), feel };
         let (truth, along) = (grower.truth(4), grower.vector(4));
         let (speed, rate) = (grower.number(5), grower.number(4));

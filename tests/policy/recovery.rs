@@ -25,7 +25,7 @@ const SLIPS: [(&str, &str); 14] = [
     ("100 ms    in 0", "100 ms    from 0"),
     ("law swipe(w: whisker) {", "law swipe(w whisker) {"),
     ("let tangent = w.contour.tangent", "let tangent w.contour.tangent"),
-    ("sign(w.deflection))", "sign(w.deflection)"),
+    ("sign(w.base_angle))", "sign(w.base_angle)"),
     ("clamp(1.5 *", "clamp(1.5 **"),
     ("state Exploring {", "stat Exploring {"),
     ("-> Swiping(r0)", "=> Swiping(r0)"),

@@ -69,7 +69,7 @@ fn what_decides_by_intent_is_no_overlap() {
         // They exclude each other.
         "when r.touching -> B  when l.touching and not r.touching -> C",
         "when r.sense > 0 -> B  when r.sense < 0 -> C",
-        "when r.deflection > p * 1 mrad -> B  when r.deflection < 200 urad -> C",
+        "when r.base_angle > p * 1 mrad -> B  when r.base_angle < 200 urad -> C",
         // A failure goes first.
         "when r.touching -> Failure(\"touched\")  when l.touching -> C",
         // Both lead to the same.
@@ -94,10 +94,10 @@ fn what_may_hold_or_fail_is_let_be() {
         "when turn(body.yaw, r.yaw) > 170 deg -> B",
         "when |r.contour.point(5 mm) - r.contour.end| > 1 mm -> B",
         "when dot(r.contour.normal, r.contour.tangent) > 0.5 -> B",
-        "when r.tip_spread > 1 mm -> B",
+        "when r.tip_deviation > 1 mm -> B",
         "when exp(p) > 3 and floor(2.5 * p) == 3 -> B",
         "when |r.tip_at(300 urad) - r.tip_base| > 1 mm -> B",
-        "when |r.deflection| > p * 1000 urad and r.deflection < 0 rad -> B",
+        "when |r.base_angle| > p * 1000 urad and r.base_angle < 0 rad -> B",
         "when p >= 2 -> B",
         "when p > 1 -> B",
         "when true -> B",
@@ -109,13 +109,13 @@ fn what_may_hold_or_fail_is_let_be() {
 #[test]
 fn what_never_or_always_holds_is_told() {
     for (guard, code) in [
-        ("r.tip_spread < 0 m", "P0508"),
+        ("r.tip_deviation < 0 m", "P0508"),
         ("exp(p) < 2.7", "P0508"),
         ("floor(p) < 1", "P0508"),
         ("wrap(body.yaw) > 190 deg", "P0508"),
         ("r.touching and r.sense == 0", "P0508"),
-        ("r.sense > 0 and r.deflection * r.side < 0 rad", "P0508"),
-        ("|r.deflection| > 361 deg", "P0508"),
+        ("r.sense > 0 and r.base_angle * r.side < 0 rad", "P0508"),
+        ("|r.base_angle| > 361 deg", "P0508"),
         ("turn(body.yaw, r.yaw) > 190 deg", "P0508"),
         ("p > 2", "P0508"),
         ("r.contour.ready and not |r.contour.curvature| >= 0 rad/m", "P0508"),
@@ -183,7 +183,7 @@ impl Senses for Told {
 
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
         let name = match quantity {
-            WhiskerScalar::BaseAngle => "deflection",
+            WhiskerScalar::BaseAngle => "base_angle",
             WhiskerScalar::Touching => "touching",
             WhiskerScalar::Side => "side",
             WhiskerScalar::Sense => "sense",
@@ -191,8 +191,8 @@ impl Senses for Told {
             WhiskerScalar::ContourReady => "contour.ready",
             WhiskerScalar::ContourCurvature => "contour.curvature",
             WhiskerScalar::Yaw => "yaw",
-            WhiskerScalar::TipDeviation => "tip_spread",
-            WhiskerScalar::BaseAngleDeviation => "deflection_spread",
+            WhiskerScalar::TipDeviation => "tip_deviation",
+            WhiskerScalar::BaseAngleDeviation => "base_angle_deviation",
             WhiskerScalar::Fitted => "fitted",
         };
         self.get(&format!("{}.{name}", ["r", "l"][whisker]))
@@ -229,9 +229,9 @@ fn condition() -> impl Strategy<Value = String> {
         whisker.clone().prop_map(|w| format!("{w}.contour.ready")),
         (whisker.clone(), side.clone(), -1..2).prop_map(|(w, side, sense)| format!("{w}.sense {side} {sense}")),
         (whisker.clone(), side.clone(), number(-8, 8))
-            .prop_map(|(w, side, bend)| format!("{w}.deflection {side} {bend:?} rad")),
+            .prop_map(|(w, side, bend)| format!("{w}.base_angle {side} {bend:?} rad")),
         (whisker.clone(), whisker.clone(), side.clone(), number(-4, 5), number(-4, 5)).prop_map(
-            |(w, u, side, factor, bend)| format!("|{w}.deflection - {factor:?} * {u}.deflection| {side} {bend:?} rad")
+            |(w, u, side, factor, bend)| format!("|{w}.base_angle - {factor:?} * {u}.base_angle| {side} {bend:?} rad")
         ),
         (whisker.clone(), whisker.clone(), side.clone(), number(-20, 20))
             .prop_map(|(w, u, side, bend)| format!("{w}.side * {u}.contour.curvature {side} {bend:?} rad/m")),
@@ -261,12 +261,12 @@ fn felt() -> impl Strategy<Value = Told> {
         for (name, (is_left, contact, bend, (is_ready, is_there), curvature, length)) in [("r", r), ("l", l)] {
             let side = if is_left { 1.0 } else { -1.0 };
             let sense = f64::from(contact) - 1.0;
-            let deflection = if sense == 0.0 { bend } else { bend.abs() * side * sense };
+            let base_angle = if sense == 0.0 { bend } else { bend.abs() * side * sense };
             for (quantity, value) in [
                 ("side", side),
                 ("sense", sense),
                 ("touching", sense.abs()),
-                ("deflection", deflection),
+                ("base_angle", base_angle),
                 ("contour.ready", f64::from(u8::from(is_ready))),
                 ("contour.curvature", if is_there { curvature } else { f64::NAN }),
                 ("length", length),

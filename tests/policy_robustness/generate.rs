@@ -88,7 +88,7 @@ const RULES: [Rule; 35] = [
             "90 deg",
             "bend",
             "body.yaw",
-            "%w.deflection",
+            "%w.base_angle",
             "-%a",
             "(%a + %a)",
             "(%n * %a)",
@@ -112,7 +112,7 @@ const RULES: [Rule; 35] = [
             "10 mm",
             "0 m",
             "%w.length",
-            "%w.tip_spread",
+            "%w.tip_deviation",
             "|%p - %p|",
             "sqrt(%l * %l)",
             "(%l - %l)",
@@ -350,7 +350,7 @@ const RULES: [Rule; 35] = [
     rule(
         'g',
         1,
-        &["let lost(w: whisker) = not w.touching let at_limit(w: whisker, limit: angle) = |w.deflection| > limit \
+        &["let lost(w: whisker) = not w.touching let at_limit(w: whisker, limit: angle) = |w.base_angle| > limit \
             law swipe(w: whisker, target: angle, fast: speed) { steer w along w.contour.tangent at fast facing target }"],
     ),
     rule(
@@ -379,12 +379,12 @@ const RULES: [Rule; 35] = [
         3,
         &[
             "machine m whisker r0, l0 param speed = 50 mm/s in 1 .. 200 mm/s param gain = 1 in -2 .. 2 param pause = 0.1 s %U %D \
-            let bend = (r0.deflection - l0.deflection) / 2 law go(w: whisker, fast: speed) { if %b { steer w along %v at fast facing %a } else { hold } } %B %E",
+            let bend = (r0.base_angle - l0.base_angle) / 2 law go(w: whisker, fast: speed) { if %b { steer w along %v at fast facing %a } else { hold } } %B %E",
             "machine m whisker r0, l0 param speed = 50 mm/s in 1 .. 200 mm/s param gain = 1 in -2 .. 2 param pause = 0.1 s use \"0.fsm\" (go) %U %D \
-            let bend = (r0.deflection - l0.deflection) / 2 %B %E\n----\n\
+            let bend = (r0.base_angle - l0.base_angle) / 2 %B %E\n----\n\
             library zero use \"1.fsm\" use \"./laws/../1.fsm\" (inner) law go(w: whisker, fast: speed) { do inner(w, w, fast) }\n----\n%L",
             "machine m whisker r0, l0 param speed = 50 mm/s param gain = 1 param pause = 0.1 s use \"0.fsm\" (twice, both, near, bow, follow) use \"2.fsm\" (go) %U \
-            let bend = (r0.deflection - l0.deflection) / 2 %B %E\n----\n\
+            let bend = (r0.base_angle - l0.base_angle) / 2 %B %E\n----\n\
             library zero let gain = 2 %D\n----\n%L\n----\nlibrary two use \"laws/../1.fsm\" law go(w: whisker, fast: speed) { do inner(w, w, fast) }",
         ],
     ),

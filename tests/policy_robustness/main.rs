@@ -304,14 +304,14 @@ fn large_texts_and_texts_that_double_with_every_line_are_answered() {
         "machine m initial S {}",
         list(3_000, &|index| format!("let v{} = v{index} + v{index}", index + 1))
     ));
-    answered(body(&list(3_000, &|index| format!("when a.deflection > {index} urad -> S"))));
+    answered(body(&list(3_000, &|index| format!("when a.base_angle > {index} urad -> S"))));
     answered(
-        body(&list(3_000, &|index| format!("when a.deflection > {index} urad and time > {index} s -> T{}", index % 7)))
+        body(&list(3_000, &|index| format!("when a.base_angle > {index} urad and time > {index} s -> T{}", index % 7)))
             + &list(7, &|index| {
                 format!("state T{index} {{ when not a.touching -> S when a.touching -> T{} }}", (index + 1) % 7)
             }),
     );
-    let all = |index: usize| list(60, &|other| format!("when a.deflection > {} urad -> S{other}", index * other));
+    let all = |index: usize| list(60, &|other| format!("when a.base_angle > {} urad -> S{other}", index * other));
     answered(format!(
         "machine m whisker a initial S0 {}",
         list(60, &|index| format!("state S{index} {{ {} }}", all(index)))
@@ -384,7 +384,7 @@ fn texts_whose_parts_double_with_every_line_take_little_time_and_memory() {
             format!("behaviour b{} {{ initial S0 {} }}", index + 1, states.join(" "))
         }),
         // Conditions whose parts are arguments.
-        chain("let t0(x: truth) = x and x", &|index| format!("let t{}(x: truth) = t0(t{index}(x))", index + 1))
+        chain("let t0(x: bool) = x and x", &|index| format!("let t{}(x: bool) = t0(t{index}(x))", index + 1))
             + " never t90(time > 1 s)",
         // Many choices, each in many parameters; much memory in many states; much memory and many values.
         {

@@ -50,10 +50,10 @@ const KINDS: [Kind; 22] = [
         items: &["state Ud(x: number = d#() + d#()) { when x > 1 -> Ud }"], statements: &["let d = d#()"] },
     Kind { bases: &["law k#(x: number = 1) { }", "law k#(x: number = nothing) { }"], link: "let e#(x: number = 1) = x law k#(x: number = e#()) { ~ }", one: "do k@()", between: " ", items: NONE, statements: &["do k#()"] },
     // Conditional expressions and conditions with shared parts.
-    Kind { bases: &["let c# = 1", "let c# = nothing", "let c# = r0.deflection / 1 rad"], link: "let c# = if c@ > 1 then c@ else (if ~ then c@ else c@)", one: "c@ < 2", between: " and ", items: NONE, statements: &["let c = c#"] },
-    Kind { bases: &["let t#(x: truth) = x and r0.touching", "let t#(x: truth) = not x", "let t#(x: truth) = nothing"], link: "let t#(x: truth) = t@(~)", one: "t@(x)", between: " or ",
-        items: &["never t#(r0.deflection > 1 mrad)", "always t#(time > 1 s) within 1 s", "state Ut { assume t#(time > 2 s) when t#(r0.touching) -> A }"], statements: &["let t = t#(true)"] },
-    Kind { bases: &["let s#(x: truth) = x"], link: "let s#(x: truth) = ~", one: "s@(x)", between: " and ", items: &["never s#(time > 1 s)", "always when s#(time > 1 s) -> Failure(\"s\")"], statements: NONE },
+    Kind { bases: &["let c# = 1", "let c# = nothing", "let c# = r0.base_angle / 1 rad"], link: "let c# = if c@ > 1 then c@ else (if ~ then c@ else c@)", one: "c@ < 2", between: " and ", items: NONE, statements: &["let c = c#"] },
+    Kind { bases: &["let t#(x: bool) = x and r0.touching", "let t#(x: bool) = not x", "let t#(x: bool) = nothing"], link: "let t#(x: bool) = t@(~)", one: "t@(x)", between: " or ",
+        items: &["never t#(r0.base_angle > 1 mrad)", "always t#(time > 1 s) within 1 s", "state Ut { assume t#(time > 2 s) when t#(r0.touching) -> A }"], statements: &["let t = t#(true)"] },
+    Kind { bases: &["let s#(x: bool) = x"], link: "let s#(x: bool) = ~", one: "s@(x)", between: " and ", items: &["never s#(time > 1 s)", "always when s#(time > 1 s) -> Failure(\"s\")"], statements: NONE },
     // Behaviours, alone and with exits and values.
     Kind { bases: &["behaviour b# { initial S state S { stop } }", "behaviour b# { initial S state S { do nothing() } }", "behaviour b# { initial S state S is b# { } }"], link: "behaviour b# { initial S0 ~ }", one: "state S% is b@ { }", between: " ",
         items: &["state Ub is b# { }", "behaviour ub { initial A state A is b# { } state B is b# { } }"], statements: NONE },

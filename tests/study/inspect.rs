@@ -65,8 +65,8 @@ fn a_run_stops_in_the_first_tick_in_which_a_state_is_active_or_a_condition_holds
     // Four consecutive ticks last 100 ms.
     let places = [
         ("Meeting", first(named("Meeting").unwrap())),
-        ("|r0.deflection| > 100 urad", bent),
-        ("|r0.deflection| > 100 urad for 100 ms", lasting),
+        ("|r0.base_angle| > 100 urad", bent),
+        ("|r0.base_angle| > 100 urad for 100 ms", lasting),
     ];
     for (place, tick) in places {
         let policy = breakpoints(THESIS, &[place]);
@@ -81,7 +81,7 @@ fn a_run_stops_in_the_first_tick_in_which_a_state_is_active_or_a_condition_holds
 
 #[test]
 fn a_breakpoint_changes_nothing_before_it() {
-    let policy = breakpoints(THESIS, &["time < 0 s", "lowpass(r0.deflection, 1 Hz) > 1 rad"]);
+    let policy = breakpoints(THESIS, &["time < 0 s", "lowpass(r0.base_angle, 1 Hz) > 1 rad"]);
     let result = trial("disk", &policy).run_watched(&mut Inspector::new(&policy, "disk")).unwrap();
     assert_eq!(result.run.trace, plain("disk").run.trace);
 }
@@ -98,14 +98,14 @@ fn a_breakpoint_with_an_error_has_its_place() {
 fn the_expression_at_which_a_number_is_not_finite_is_named() {
     let text = "machine m  whisker r0  initial A
         state A {
-          let ratio = 50 mm/s / (r0.deflection - r0.deflection) * 1 rad
+          let ratio = 50 mm/s / (r0.base_angle - r0.base_angle) * 1 rad
           let speed = ratio + 1 mm/s
           steer body along direction(body.yaw) at speed turning 0 deg/s
         }";
     let policy = breakpoints(text, &[]);
     let mut inspector = Inspector::new(&policy, "disk");
     trial("disk", &policy).run_watched(&mut inspector).unwrap();
-    assert_eq!(inspector.origin_of_non_finite(), Some("50 mm/s / (r0.deflection - r0.deflection)"));
+    assert_eq!(inspector.origin_of_non_finite(), Some("50 mm/s / (r0.base_angle - r0.base_angle)"));
 }
 
 #[test]

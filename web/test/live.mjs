@@ -170,7 +170,7 @@ whisker r0
 type Side = left or right
 initial Go
 state Go {
-  plot bend = |r0.deflection|
+  plot bend = |r0.base_angle|
   plot touches = r0.touching
   plot side = if r0.touching then Side.right else Side.left
   record r0

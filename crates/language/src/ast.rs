@@ -193,7 +193,7 @@ pub(super) struct Parameter {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Setting {
     Number(Bound),
-    Truth(bool, Span),
+    Bool(bool, Span),
     /// An enumeration and one of its values.
     Choice(Name, Name),
 }
@@ -203,7 +203,7 @@ impl Setting {
     pub(super) fn span(&self) -> Span {
         match self {
             Self::Number(bound) => bound.span,
-            Self::Truth(_, span) => *span,
+            Self::Bool(_, span) => *span,
             Self::Choice(of, value) => of.span.to(value.span),
         }
     }

@@ -167,9 +167,9 @@ fn setting(reader: &mut Reader<'_>) -> Parsed<Setting> {
         return Ok(Setting::Number(bound(reader.take(Rule::bound)?)?));
     }
     let mut value = Reader::new(reader.take(Rule::chosen_value)?);
-    if value.has(Rule::truth) {
+    if value.has(Rule::bool) {
         let truth = value.next()?;
-        return Ok(Setting::Truth(truth.as_str() == "true", truth.span()));
+        return Ok(Setting::Bool(truth.as_str() == "true", truth.span()));
     }
     Ok(Setting::Choice(value.name()?, value.name()?))
 }

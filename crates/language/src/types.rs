@@ -12,7 +12,7 @@ use super::ast::{Binary, TypeName};
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Type {
-    Truth,
+    Bool,
     /// One of the values of an enumeration.
     Choice(Choices),
     Scalar(Dimension),
@@ -97,7 +97,7 @@ impl Type {
         match (name.base.text.as_str(), of) {
             ("whisker", None) if name.factors.is_empty() => Some(Self::Whisker),
             ("contour", None) if name.factors.is_empty() => Some(Self::Contour),
-            ("truth", None) if name.factors.is_empty() => Some(Self::Truth),
+            ("bool", None) if name.factors.is_empty() => Some(Self::Bool),
             ("position", None) if name.factors.is_empty() => Some(Self::Position),
             ("direction", None) if name.factors.is_empty() => Some(Self::Direction),
             ("vector", None) if name.factors.is_empty() => Some(Self::Vector(Dimension::NUMBER)),
@@ -117,7 +117,7 @@ fn product(first: &str, name: &TypeName) -> Option<Dimension> {
 }
 
 /// The types that have a name and no dimension.
-pub(super) const PLAIN_TYPES: [&str; 6] = ["whisker", "contour", "truth", "position", "direction", "vector"];
+pub(super) const PLAIN_TYPES: [&str; 6] = ["whisker", "contour", "bool", "position", "direction", "vector"];
 
 /// The dimensions with names.
 pub(super) const DIMENSIONS: [(&str, Dimension); 12] = [
@@ -142,7 +142,7 @@ pub(super) fn dimension(name: &str) -> Option<Dimension> {
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Truth => f.write_str("a truth"),
+            Self::Bool => f.write_str("a bool"),
             Self::Choice(_) => f.write_str("a value of an enumeration"),
             Self::Scalar(dimension) => f.write_str(&dimension.phrase()),
             Self::Vector(Dimension::NUMBER) => f.write_str("a vector of plain numbers"),

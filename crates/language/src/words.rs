@@ -36,7 +36,7 @@ const INSIDE: Class = Class::new(Role::Control, &[Position::Inside], Expected::V
 const ACTION: Class = Class::new(Role::Action, &[Position::Inside], Expected::Value);
 const OPERATOR: Class = Class::new(Role::Operator, &[Position::Inside], Expected::Value);
 const NOT: Class = Class::new(Role::Operator, &[Position::Value, Position::Run], Expected::Value);
-const TRUTH: Class = Class::new(Role::Constant, &[Position::Value, Position::Run], Expected::Value).complete();
+const BOOL: Class = Class::new(Role::Constant, &[Position::Value, Position::Run], Expected::Value).complete();
 const VALUE: Class = Class::new(Role::Variable, &[Position::Value], Expected::Value).complete();
 const RUN: Class = Class::new(Role::Variable, &[Position::Run], Expected::Value).complete();
 const TARGET: Class = Class::new(Role::Control, &[Position::Target], Expected::Value).complete();
@@ -359,8 +359,8 @@ pub(super) const WORDS: [Word; 81] = [
     entry("or", OPERATOR, "or", "True if at least one side is true. Both sides are always computed."),
     entry("->", INSIDE, "-> ${1:Target}", "The target of a transition."),
     entry("not", NOT, "not", "The negation of the comparison after it: `not a < b` negates `a < b`."),
-    entry("true", TRUTH, "true", "True."),
-    entry("false", TRUTH, "false", "False."),
+    entry("true", BOOL, "true", "True."),
+    entry("false", BOOL, "false", "False."),
     entry("body", VALUE, "body", "The platform."),
     entry("time", VALUE, "time", "The time since the start of the run."),
     entry("state_time", VALUE, "state_time", "The time since the entry of the state that contains it."),

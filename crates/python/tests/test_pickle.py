@@ -48,7 +48,7 @@ def same_results(found, expected):
         (ROOT / "scenarios/octagon.yaml", ROOT / "policies/thesis.fsm", {}),
         # A policy that logs and plots, and fails.
         ("disk", vibrissa.Text(
-            'machine told\n\nwhisker r0\n\ninitial Told\n\nstate Told {\n  plot bend = r0.deflection\n  log "told", r0\n  stop\n'
+            'machine told\n\nwhisker r0\n\ninitial Told\n\nstate Told {\n  plot bend = r0.base_angle\n  log "told", r0\n  stop\n'
             '  when true for 1 s -> Failure("enough")\n}\n'
         ), {}),
     ],

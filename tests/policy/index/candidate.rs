@@ -49,8 +49,8 @@ fn a_property_offers_families_and_their_parameters() {
 #[test]
 fn behind_a_point_come_the_members_of_what_stands_before_it() {
     let members = [
-        "deflection",
-        "deflection_spread",
+        "base_angle",
+        "base_angle_deviation",
         "touching",
         "yaw",
         "side",
@@ -58,7 +58,7 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
         "length",
         "tip",
         "tip_base",
-        "tip_spread",
+        "tip_deviation",
         "base",
         "fitted",
         "tip_at",

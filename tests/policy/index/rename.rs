@@ -93,7 +93,7 @@ fn the_machines_memory_has_one_name_wherever_it_is_known() {
 #[test]
 fn a_value_of_an_enumeration_and_an_argument_are_renamed_wherever_they_are_used() {
     let text = "machine m\nwhisker a\ntype Side = left or right\nparam side = Side.left\n\
-                let is_left(which: Side, left: truth = true) = which == Side.left and left\ninitial S\n\
+                let is_left(which: Side, left: bool = true) = which == Side.left and left\ninitial S\n\
                 state S { stop  when is_left(left: a.touching, which: side) -> T(left: 1 s) }\n\
                 state T(left: time) { stop  after left -> S }\n\
                 test \"it\" in \"a.yaml\" { set side = Side.left  expect run.completed }\n";
@@ -104,7 +104,7 @@ fn a_value_of_an_enumeration_and_an_argument_are_renamed_wherever_they_are_used(
         assert!(compile(&Source::new("renamed.fsm", &*renamed)).is_ok(), "{renamed}");
         renamed.matches("fresh").count()
     };
-    assert_eq!(["left or", "left: truth", "left: time", "Side ="].map(renamed), [4, 3, 3, 5]);
+    assert_eq!(["left or", "left: bool", "left: time", "Side ="].map(renamed), [4, 3, 3, 5]);
     let taken = index.rename(text.find("left or").unwrap(), "right").unwrap_err();
     assert_eq!(taken, RenameError::Taken { name: "right".to_owned(), line: 3 });
     let hover = |part: &str| index.hover(text.find(part).unwrap()).unwrap().text;

@@ -128,7 +128,7 @@ fn a_warning_about_a_behaviour_holds_for_every_use() {
     let text = |values: [&str; 2]| {
         format!(
             "machine m whisker r0 initial A
-            behaviour go(limit: angle) {{ exit done  stop  when r0.deflection > limit -> exit done }}
+            behaviour go(limit: angle) {{ exit done  stop  when r0.base_angle > limit -> exit done }}
             state A is go({}) {{ on done -> B }}
             state B is go({}) {{ on done -> Failure(\"end\") }}",
             values[0], values[1]

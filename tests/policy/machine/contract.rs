@@ -77,16 +77,16 @@ fn a_tick_that_ends_the_run_evaluates_no_contract() {
 #[test]
 fn the_margin_is_the_least_distance_of_compared_numbers_from_a_violation() {
     let deflected = |deflections: &[f64]| {
-        let feel = |&deflection: &f64| vec![Feel { deflection, ..Feel::default() }];
+        let feel = |&base_angle: &f64| vec![Feel { base_angle, ..Feel::default() }];
         Script::new(deflections.iter().map(feel).collect())
     };
     for (condition, deflections, margin, at) in [
-        ("never |w.deflection| > 3 mrad", [1e-3, -2.5e-3, 2e-3], 0.5e-3, 1),
-        ("never |w.deflection| > 2 mrad", [1e-3, -2.5e-3, 2e-3], -0.5e-3, 1),
-        ("never w.deflection > 4 mrad or w.deflection < -3 mrad", [1e-3, -2.5e-3, 2e-3], 0.5e-3, 1),
-        ("never w.deflection > 0 rad and w.deflection < 5 mrad", [-1e-3, -2.5e-3, -2e-3], 1e-3, 0),
-        ("always |w.deflection| < 2 mrad within 1 s", [1e-3, -2.5e-3, 3e-3], -1e-3, 2),
-        ("never not (w.deflection < 4 mrad)", [1e-3, 2e-3, 3.5e-3], 0.5e-3, 2),
+        ("never |w.base_angle| > 3 mrad", [1e-3, -2.5e-3, 2e-3], 0.5e-3, 1),
+        ("never |w.base_angle| > 2 mrad", [1e-3, -2.5e-3, 2e-3], -0.5e-3, 1),
+        ("never w.base_angle > 4 mrad or w.base_angle < -3 mrad", [1e-3, -2.5e-3, 2e-3], 0.5e-3, 1),
+        ("never w.base_angle > 0 rad and w.base_angle < 5 mrad", [-1e-3, -2.5e-3, -2e-3], 1e-3, 0),
+        ("always |w.base_angle| < 2 mrad within 1 s", [1e-3, -2.5e-3, 3e-3], -1e-3, 2),
+        ("never not (w.base_angle < 4 mrad)", [1e-3, 2e-3, 3.5e-3], 0.5e-3, 2),
     ] {
         let text = format!("machine m whisker w initial A state A {{ stop {condition} }}");
         let [(_, _, status)] = &observed(&text, &mut deflected(&deflections))[..] else { panic!("{text}") };
@@ -100,7 +100,7 @@ fn the_margin_is_the_least_distance_of_compared_numbers_from_a_violation() {
 fn a_contract_of_bools_or_of_several_dimensions_has_no_margin() {
     for (condition, dimension) in [
         ("w.touching", None),
-        ("|w.deflection| > 1 rad or time > 100 s", None),
+        ("|w.base_angle| > 1 rad or time > 100 s", None),
         ("time > 100 s", Some(Dimension::TIME)),
         ("|w.tip - w.base| > 100 m", Some(Dimension::LENGTH)),
     ] {

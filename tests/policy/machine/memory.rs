@@ -183,7 +183,7 @@ fn what_stands_in_the_place_of_fitted_is_told_and_nothing_else_is_taken_for_it()
 #[test]
 fn it_is_told_what_of_it_grows_too_large() {
     let sum = |name: &str, count| vec![name; count].join(" + ");
-    let (little, much) = (sum("w.deflection", 120), sum("little", 100));
+    let (little, much) = (sum("w.base_angle", 120), sum("little", 100));
     let told = |own: &str| {
         let text = format!(
             "machine m whisker w initial A  let little = {little}  let much = {much}

@@ -166,7 +166,7 @@ fn what_is_told_to_one_monitor_does_not_concern_another() {
 fn the_bound_of_a_tick_counts_monitors_once() {
     let rest = "machine m whisker w initial A state A { stop }";
     let plain = program(rest);
-    let watched = program(&format!("{rest} monitor felt {{ var x = 0 rad  set x = max(x, w.deflection) }}"));
+    let watched = program(&format!("{rest} monitor felt {{ var x = 0 rad  set x = max(x, w.base_angle) }}"));
     let monitors = watched.monitors.len();
     assert!(monitors > 0);
     assert_eq!(watched.operations(0), plain.operations(0) + monitors);
@@ -178,9 +178,9 @@ fn the_bound_of_a_tick_counts_monitors_once() {
 
 /// A monitor that computes much, remembers, and is read by nothing.
 const WATCHER: &str = "monitor watcher_of_all {
-    var seen_by_it = w0.deflection  var count_of_it = 0  var where_it_was = body.position
+    var seen_by_it = w0.base_angle  var count_of_it = 0  var where_it_was = body.position
     if w0.touching { set count_of_it = count_of_it + lowpass(1, 2 Hz) }
-    set seen_by_it = w0.deflection - seen_by_it  set where_it_was = blend(w0.tip, where_it_was, 0.5)
+    set seen_by_it = w0.base_angle - seen_by_it  set where_it_was = blend(w0.tip, where_it_was, 0.5)
 }";
 
 proptest! {

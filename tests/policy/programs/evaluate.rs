@@ -214,14 +214,14 @@ impl Interpreter<'_> {
         let vector = |quantity| Value::Vector(self.senses.whisker_vector(whisker, quantity));
         let behind = |quantity| Value::Vector(self.senses.contour_at(whisker, values[0], quantity));
         match member {
-            "deflection" => scalar(WhiskerScalar::BaseAngle),
+            "base_angle" => scalar(WhiskerScalar::BaseAngle),
             "touching" => truth(WhiskerScalar::Touching),
             "yaw" => scalar(WhiskerScalar::Yaw),
             "side" => scalar(WhiskerScalar::Side),
             "sense" => scalar(WhiskerScalar::Sense),
             "length" => scalar(WhiskerScalar::Length),
-            "tip_spread" => scalar(WhiskerScalar::TipDeviation),
-            "deflection_spread" => scalar(WhiskerScalar::BaseAngleDeviation),
+            "tip_deviation" => scalar(WhiskerScalar::TipDeviation),
+            "base_angle_deviation" => scalar(WhiskerScalar::BaseAngleDeviation),
             "loop_closed" => Value::Truth(self.senses.loop_closed(whisker, values[0], values[1])),
             "ready" => truth(WhiskerScalar::ContourReady),
             "tip" => vector(WhiskerVector::Tip),

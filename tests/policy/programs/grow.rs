@@ -192,9 +192,9 @@ impl<'g> Grower<'g> {
             Type::Length if self.pick(3) == 0 => {
                 Expression::Body(self.one_of(&["length", "width", "nose_width", "tail_width"]))
             }
-            Type::Length => self.of_whisker(&["length", "tip_spread"]),
+            Type::Length => self.of_whisker(&["length", "tip_deviation"]),
             Type::Angle if self.pick(3) == 0 => Expression::Body("yaw"),
-            Type::Angle => self.of_whisker(&["deflection", "yaw", "deflection_spread"]),
+            Type::Angle => self.of_whisker(&["base_angle", "yaw", "base_angle_deviation"]),
             Type::Time if self.in_state && self.pick(2) == 0 => self.call("state_time", Vec::new()),
             Type::Time => self.call("time", Vec::new()),
             Type::Truth if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "ready"),

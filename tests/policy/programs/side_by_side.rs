@@ -25,11 +25,11 @@ fn number(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
 prop_compose! {
     fn feel()(
         (touching, ready) in any::<(bool, bool)>(),
-        deflection in number(-0.01..0.01),
+        base_angle in number(-0.01..0.01),
         (is_left, sense) in (any::<bool>(), prop::sample::select(vec![-1.0, 0.0, 1.0])),
         (x, y) in (number(-1.0..1.0), -1.0..1.0),
     ) -> Feel {
-        Feel { touching, ready, deflection, side: if is_left { 1.0 } else { -1.0 }, sense, tangent: Vector2::new(x, y) }
+        Feel { touching, ready, base_angle, side: if is_left { 1.0 } else { -1.0 }, sense, tangent: Vector2::new(x, y) }
     }
 }
 
@@ -43,7 +43,7 @@ prop_compose! {
         Feel {
             touching,
             ready,
-            deflection: angle * side * sense,
+            base_angle: angle * side * sense,
             side,
             sense: if touching { sense } else { 0.0 },
             tangent: Vector2::new(towards.cos(), towards.sin()),

@@ -23,7 +23,7 @@ impl Type {
             Self::Speed => "speed",
             Self::Rate => "angular_speed",
             Self::Frequency => "number / time",
-            Self::Truth => "truth",
+            Self::Truth => "bool",
             Self::Vector => "vector",
             Self::Direction => "direction",
             Self::Shift => "vector of length",
@@ -60,7 +60,7 @@ impl Program {
     fn head(&self, initial: &str) -> String {
         let whiskers: Vec<String> = (0..self.whiskers).map(|whisker| format!("w{whisker}")).collect();
         let mut text = format!("machine m\nwhisker {}\ninitial {initial}\n", whiskers.join(", "));
-        text.push_str("type E = e0 or e1 or e2\ntype R(n: number, p: position, b: truth)\n");
+        text.push_str("type E = e0 or e1 or e2\ntype R(n: number, p: position, b: bool)\n");
         writeln!(text, "type L = list of {LIST_LENGTH} position").unwrap();
         for contour in 0..self.contours {
             writeln!(text, "contour c{contour} of {} points 2 mm apart", 3 + contour).unwrap();

@@ -8,7 +8,7 @@ use vibrissa_runtime::machine::{BodyScalar, ContourVector, Senses, WhiskerScalar
 /// A whisker that is felt as a test says: 0 is on the right, 1 on the left.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Whisker {
-    pub(crate) deflection: f64,
+    pub(crate) base_angle: f64,
     pub(crate) tangent: Vector2,
     pub(crate) ready: bool,
 }
@@ -24,7 +24,7 @@ pub(crate) struct Felt {
 
 pub(crate) const SWEPT_BACK: f64 = 105.0 * PI / 180.0;
 pub(crate) const LENGTH: f64 = 0.1;
-pub(crate) const FREE: Whisker = Whisker { deflection: 0.0, tangent: Vector2::new(1.0, 0.0), ready: false };
+pub(crate) const FREE: Whisker = Whisker { base_angle: 0.0, tangent: Vector2::new(1.0, 0.0), ready: false };
 
 impl Felt {
     pub(crate) fn at(body: Pose) -> Self {
@@ -34,7 +34,7 @@ impl Felt {
     /// The same in a mirror that lies along x; left and right change places.
     pub(crate) fn mirrored(&self) -> Self {
         let whisker = |whisker: Whisker| Whisker {
-            deflection: -whisker.deflection,
+            base_angle: -whisker.base_angle,
             tangent: flipped(whisker.tangent),
             ..whisker
         };
@@ -60,7 +60,7 @@ impl Felt {
     }
 
     pub(crate) fn is_touching(&self, whisker: usize) -> bool {
-        self.whiskers[whisker].deflection.abs() > 2e-5
+        self.whiskers[whisker].base_angle.abs() > 2e-5
     }
 }
 
@@ -82,13 +82,13 @@ impl Senses for Felt {
     }
 
     fn whisker(&self, whisker: usize, quantity: WhiskerScalar) -> f64 {
-        let Whisker { deflection, ready, .. } = self.whiskers[whisker];
+        let Whisker { base_angle, ready, .. } = self.whiskers[whisker];
         match quantity {
-            WhiskerScalar::BaseAngle => deflection,
+            WhiskerScalar::BaseAngle => base_angle,
             WhiskerScalar::Touching => f64::from(u8::from(self.is_touching(whisker))),
             WhiskerScalar::Yaw => self.yaw(whisker),
             WhiskerScalar::Side => Self::side(whisker),
-            WhiskerScalar::Sense if self.is_touching(whisker) => deflection.signum() * Self::side(whisker),
+            WhiskerScalar::Sense if self.is_touching(whisker) => base_angle.signum() * Self::side(whisker),
             WhiskerScalar::Length => LENGTH,
             WhiskerScalar::Fitted => 1.0,
             WhiskerScalar::ContourReady => f64::from(u8::from(ready)),
@@ -100,7 +100,7 @@ impl Senses for Felt {
     }
 
     fn whisker_vector(&self, whisker: usize, quantity: WhiskerVector) -> Vector2 {
-        let tip_base = self.tip_at(whisker, self.whiskers[whisker].deflection);
+        let tip_base = self.tip_at(whisker, self.whiskers[whisker].base_angle);
         let tangent = self.whiskers[whisker].tangent;
         match quantity {
             WhiskerVector::TipBase => tip_base,
@@ -114,8 +114,8 @@ impl Senses for Felt {
     }
 
     /// A whisker that bends like a circle, more than any does.
-    fn tip_at(&self, _: usize, deflection: f64) -> Vector2 {
-        LENGTH * unit(500.0 * deflection)
+    fn tip_at(&self, _: usize, base_angle: f64) -> Vector2 {
+        LENGTH * unit(500.0 * base_angle)
     }
 
     fn contour_at(&self, whisker: usize, _: f64, quantity: ContourVector) -> Vector2 {
@@ -138,10 +138,10 @@ impl Senses for Felt {
     fn record_position(&mut self, _: usize, _: Vector2) {}
 }
 
-/// The platform at the origin heading along x, one whisker bent by `deflection` in units of its target, as forward motion does.
+/// The platform at the origin heading along x, one whisker bent by `base_angle` in units of its target, as forward motion does.
 pub(crate) fn swiping(whisker: usize, bend: f64) -> Felt {
     let mut felt = Felt::at(Pose::default());
-    let deflection = 3e-4 * bend * Felt::side(whisker);
-    felt.whiskers[whisker] = Whisker { deflection, tangent: Vector2::new(1.0, 0.0), ready: true };
+    let base_angle = 3e-4 * bend * Felt::side(whisker);
+    felt.whiskers[whisker] = Whisker { base_angle, tangent: Vector2::new(1.0, 0.0), ready: true };
     felt
 }

@@ -41,7 +41,7 @@ fn guards_hold_when_they_say() {
         let mut both = bent;
         both.whiskers[1 - whisker] = swiping(1 - whisker, 0.5).whiskers[1 - whisker];
         assert!(holds("same_sense(v, w)", whisker, &both));
-        both.whiskers[whisker].deflection *= -1.0;
+        both.whiskers[whisker].base_angle *= -1.0;
         assert!(!holds("same_sense(v, w)", whisker, &both));
         let turned = Felt::at(Pose { position: Point2::new(0.1, 0.0), heading: PI - 0.01 });
         assert!(holds("is_facing(-179 deg, 2 deg)", whisker, &turned));

@@ -17,8 +17,8 @@ prop_compose! {
         mounting in 0.5..2.5_f64,
     ) -> Felt {
         let whisker = |index: usize| {
-            let deflection = if senses[index] { bends[index] } else { -bends[index] };
-            Whisker { deflection, tangent: unit(direction + between * index as f64), ready: true }
+            let base_angle = if senses[index] { bends[index] } else { -bends[index] };
+            Whisker { base_angle, tangent: unit(direction + between * index as f64), ready: true }
         };
         Felt { body: Pose { position: Point2::new(x, y), heading }, whiskers: [whisker(0), whisker(1)], mounting }
     }

@@ -73,9 +73,9 @@ fn between_two_walls_the_platform_goes_to_the_side_that_bends_less() {
     assert_eq!((mover, speed, turn), (Mover::Body, 0.05, Turn::Rate(0.0)));
     assert!(is_near(along, Vector2::new(1.0, 0.0)));
     // The right whisker is bent by half a target more than the left: to the left, by a quarter.
-    felt.whiskers[0].deflection *= 1.5;
+    felt.whiskers[0].base_angle *= 1.5;
     assert!(is_near(commanded(0, law, &felt).1, Vector2::new(1.0, 0.25)));
-    felt.whiskers[0].deflection *= 9.0;
+    felt.whiskers[0].base_angle *= 9.0;
     assert!(is_near(commanded(0, law, &felt).1, Vector2::new(1.0, 0.5)), "by half at most");
     // Walls that turn to the left, one by 10 deg and the other by 20 deg.
     felt.whiskers[0] = Whisker { tangent: unit(0.2), ..swiping(0, 1.0).whiskers[0] };

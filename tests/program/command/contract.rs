@@ -14,7 +14,7 @@ initial Still
 never patience > 20 s
 state Still {
   never time > 2 s
-  always |r0.deflection| < 100 urad within 1 s
+  always |r0.base_angle| < 100 urad within 1 s
   stop
   after patience -> Success(\"waited\")
 }";
@@ -36,7 +36,7 @@ fn check_says_which_contracts_are_proved() {
         [
             ("never patience > 20 s", &Value::Bool(true)),
             ("never time > 2 s", &Value::Bool(false)),
-            ("always |r0.deflection| < 100 urad within 1 s", &Value::Bool(false)),
+            ("always |r0.base_angle| < 100 urad within 1 s", &Value::Bool(false)),
         ]
     );
 }

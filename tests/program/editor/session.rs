@@ -41,7 +41,7 @@ fn a_session_from_the_first_word_to_the_last() {
 
     let at = position(THESIS, "touching for lost", 0);
     let members = editor.ask_at("completion", &at, json!({}));
-    assert!(labels(&members).contains(&"deflection") && !labels(&members).contains(&"clamp"), "{members}");
+    assert!(labels(&members).contains(&"base_angle") && !labels(&members).contains(&"clamp"), "{members}");
 
     // `lost` is the name of a parameter, and a word of comments and of the reasons of failures.
     let rename = editor.ask_at("rename", &position(THESIS, "for lost", 0), json!({"newName": "gone"}));

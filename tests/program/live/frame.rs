@@ -12,7 +12,7 @@ use crate::command::program::{ROOT, directory, stderr, stdout, vibrissa};
 
 /// A policy with a plot of each kind. One is set in a single tick, and one only now and then.
 const PLOTS: &str = "machine plotter\nwhisker r0 by one_channel\ntype Side = left or right\nvar nearer = Side.left\ninitial Go\n\
-    state Go {\n  plot bend = |r0.deflection|\n  plot touches = r0.touching\n  plot side = nearer\n\
+    state Go {\n  plot bend = |r0.base_angle|\n  plot touches = r0.touching\n  plot side = nearer\n\
     entry { plot begun = time }\n  if r0.touching { plot touched = time }\n\
     steer body along direction(body.yaw) at 30 mm/s turning 0 deg/s\n  when time > 4 s -> Turn\n}\n\
     state Turn {\n  entry { set nearer = Side.right }\n  plot side = nearer\n\

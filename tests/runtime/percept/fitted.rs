@@ -21,7 +21,7 @@ use crate::common::program;
 fn policy(whiskers: &str, rule: &str) -> String {
     format!(
         "machine m whisker r0 {whiskers} initial A
-        state A {{ steer r0 along direction(body.yaw + r0.deflection * 1000) at 50 mm/s turning 0 deg/s  {rule}
+        state A {{ steer r0 along direction(body.yaw + r0.base_angle * 1000) at 50 mm/s turning 0 deg/s  {rule}
           when r0.touching -> B }}
         state B {{ record r0  steer body along r0.tip - body.position at 20 mm/s facing r0.yaw  {rule}
           when not r0.touching for 100 ms -> A }}
@@ -59,7 +59,7 @@ proptest! {
         ticks in ticks(),
         rule in prop::sample::select(vec![
             "when fr.touching or fl.touching -> C", "when fr.fitted -> C", "when fl.sense != 0 -> C",
-            "when |fr.deflection| + |fl.deflection| > 0 rad -> C", "when fr.contour.ready -> C", "record fr mark lost fl",
+            "when |fr.base_angle| + |fl.base_angle| > 0 rad -> C", "when fr.contour.ready -> C", "record fr mark lost fl",
         ]),
     ) {
         let rig = Rig::default();
@@ -78,7 +78,7 @@ proptest! {
         let (name, other) = [("r0", "l0"), ("l0", "r0")][bound];
         let text = |ending: &str| format!(
             "machine m whisker {other} whisker {name} {ending} initial A
-            state A {{ record {name} steer {name} along {name}.tip - {other}.base at 10 mm/s facing {name}.deflection * 1000 }}"
+            state A {{ record {name} steer {name} along {name}.tip - {other}.base at 10 mm/s facing {name}.base_angle * 1000 }}"
         );
         let (mut one, mut another) = (control(&rig, &text("if fitted")), control(&rig, &text("")));
         for (tick, &angles) in ticks.iter().enumerate() {

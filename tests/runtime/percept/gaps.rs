@@ -223,13 +223,13 @@ fn policies() -> [String; 2] {
     }
     let computing = "machine computing whisker r0, l0 initial Go failsafe -> Still
         law go(w: whisker) {
-          let bend = lowpass(w.deflection, 5 Hz)
+          let bend = lowpass(w.base_angle, 5 Hz)
           let pull = pid(turn(body.yaw, angle(w.tip - w.base)), 2 Hz, 0.5 Hz^2, 0.1, 1 rad/s)
-          steer w along w.tip_at(bend) / w.deflection at 50 mm/s * min(1, |w.tip - body.position| / 1 m) turning pull
+          steer w along w.tip_at(bend) / w.base_angle at 50 mm/s * min(1, |w.tip - body.position| / 1 m) turning pull
         }
         state Go { record r0 do go(r0) after 1 s -> Other }
         state Other { record l0 do go(l0) after 0.5 s -> Go failsafe -> Still }
-        state Still { stop when r0.deflection == r0.deflection for 50 ms -> Go }";
+        state Still { stop when r0.base_angle == r0.base_angle for 50 ms -> Go }";
     [thesis, computing.to_owned()]
 }
 
@@ -271,7 +271,7 @@ proptest! {
 
 /// A policy whose commands need the base angle, the tip and the pose.
 const NEEDY: &str = "machine m whisker r0 by one_channel initial Going failsafe -> Waiting
-    state Going { steer body along direction(body.yaw) + unit(r0.tip - body.position) at 0.1 mm/s / 1 urad * |r0.deflection| turning 0 deg/s }
+    state Going { steer body along direction(body.yaw) + unit(r0.tip - body.position) at 0.1 mm/s / 1 urad * |r0.base_angle| turning 0 deg/s }
     state Waiting { stop }";
 
 /// The states of [`NEEDY`] after every tick, under these samples.

@@ -67,5 +67,5 @@ fn time_span(edge: &Edge<'_>) -> Option<vibrissa_text::diagnostic::Span> {
 
 /// True if the guard is the literal `true`.
 fn is_true(edge: &Edge<'_>) -> bool {
-    matches!(&edge.written.guard, ast::Guard::When { condition, .. } if condition.kind == ast::Kind::Truth(true))
+    matches!(&edge.written.guard, ast::Guard::When { condition, .. } if condition.kind == ast::Kind::Bool(true))
 }

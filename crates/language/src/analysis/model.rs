@@ -229,7 +229,7 @@ impl<'a> Model<'a> {
             (Some(values), _) => Domain::Values(values),
             (None, Some(Type::Whisker)) => indices(self.program.whiskers.len()),
             (None, Some(Type::Contour)) => indices(self.program.whiskers.len() + self.program.contours.len()),
-            (None, Some(Type::Truth)) => indices(2),
+            (None, Some(Type::Bool)) => indices(2),
             (None, Some(Type::Choice(choices))) => indices(choices.count),
             (None, _) => Domain::Range(Interval::ANYTHING),
         })

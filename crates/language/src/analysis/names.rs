@@ -122,7 +122,7 @@ impl<'a> Names<'a> {
 
     pub(super) fn expression(&mut self, expression: &'a Expression) {
         match &expression.kind {
-            Kind::Quantity(_) | Kind::Truth(_) => {}
+            Kind::Quantity(_) | Kind::Bool(_) => {}
             Kind::Root { name, values } => {
                 self.used.insert(&name.text);
                 self.expressions(values.iter().flatten());

@@ -14,7 +14,7 @@ use super::unknown::{Domain, Unknown};
 const BISECTION_LIMIT: usize = 60;
 
 impl Search<'_> {
-    /// A witness as text: `r0.touching = true, r0.deflection = 950 urad`. Its values are as simple as possible for the
+    /// A witness as text: `r0.touching = true, r0.base_angle = 950 urad`. Its values are as simple as possible for the
     /// goals, and exactly those shown.
     pub(super) fn describe(&mut self, goals: &[Goal<'_>], point: Point) -> String {
         self.describe_such(goals, point, None)

@@ -125,7 +125,7 @@ pub(crate) struct Expression {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Kind {
     Quantity(Quantity),
-    Truth(bool),
+    Bool(bool),
     /// `name`, `name(values)`, `body`
     Root {
         name: Name,

@@ -88,20 +88,20 @@ const VECTOR: [Member; 2] = [
 
 const WHISKER: [Member; 15] = [
     scalar(
-        "deflection",
+        "base_angle",
         Type::ANGLE,
         WhiskerScalar::BaseAngle,
         "the filtered angle of its base, counter-clockwise positive",
     ),
     scalar(
-        "deflection_spread",
+        "base_angle_deviation",
         Type::ANGLE,
         WhiskerScalar::BaseAngleDeviation,
-        "standard deviation of `deflection`, from the noise that the rig states or that was measured in free air, and from vibrations of the shaft",
+        "standard deviation of `base_angle`, from the noise that the rig states or that was measured in free air, and from vibrations of the shaft",
     ),
     scalar(
         "touching",
-        Type::Truth,
+        Type::Bool,
         WhiskerScalar::Touching,
         "true if the magnitude of the base angle exceeds the rig's contact threshold and five standard deviations",
     ),
@@ -127,7 +127,7 @@ const WHISKER: [Member; 15] = [
         "the displacement of the tip from the base: x along the undeflected shaft, y to its left",
     ),
     scalar(
-        "tip_spread",
+        "tip_deviation",
         Type::LENGTH,
         WhiskerScalar::TipDeviation,
         "standard deviation of `tip` as the contact estimator reports it. It is infinite beyond its range",
@@ -135,7 +135,7 @@ const WHISKER: [Member; 15] = [
     position("base", WhiskerVector::Base, "the position of the base"),
     scalar(
         "fitted",
-        Type::Truth,
+        Type::Bool,
         WhiskerScalar::Fitted,
         "true if the rig has the whisker. Only whiskers that are bound `if fitted` may be missing",
     ),
@@ -152,7 +152,7 @@ const WHISKER: [Member; 15] = [
         at: Some(At::LoopClosed),
         ..member(
             "loop_closed",
-            Type::Truth,
+            Type::Bool,
             MemberSource::At,
             "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around. A whisker can close one loop in a run: behind a gap, the same loop goes on. `trace_object` in `std.object` traces several objects",
         )
@@ -168,7 +168,7 @@ const WHISKER: [Member; 15] = [
 const CONTOUR: [Member; 6] = [
     scalar(
         "ready",
-        Type::Truth,
+        Type::Bool,
         WhiskerScalar::ContourReady,
         "true if a point was recorded in this tick or the one before, and there are enough points for a curve: seven, unless the policy states another number",
     ),
@@ -218,7 +218,7 @@ const BODY: [Member; 12] = [
     member("position", Type::Position, MemberSource::BodyPosition, "the centre of mass of the platform"),
     member(
         "blocked",
-        Type::Truth,
+        Type::Bool,
         MemberSource::Body(BodyScalar::Blocked),
         "true if the body is blocked: an obstacle prevents it from following its commands",
     ),
@@ -285,24 +285,24 @@ static RUN: LazyLock<Vec<Member>> = LazyLock::new(|| {
 const VERDICTS: [Member; 5] = [
     figure(
         "passed",
-        Type::Truth,
+        Type::Bool,
         RunFigure::Passed,
         "true if the run fulfils the expectations of its scenario. A scenario without expectations expects completion",
     ),
     figure(
         "completed",
-        Type::Truth,
+        Type::Bool,
         RunFigure::Completed,
         "true if the run completed: the policy succeeded, the loop closed, the goal was reached, or the time of a scenario without an aim ended",
     ),
-    figure("failed", Type::Truth, RunFigure::Failed, "true if the run ended in `Failure`"),
+    figure("failed", Type::Bool, RunFigure::Failed, "true if the run ended in `Failure`"),
     figure(
         "timed_out",
-        Type::Truth,
+        Type::Bool,
         RunFigure::TimedOut,
         "true if the run reached its time limit before the loop closed",
     ),
-    figure("diverged", Type::Truth, RunFigure::Diverged, "true if the simulation diverged"),
+    figure("diverged", Type::Bool, RunFigure::Diverged, "true if the simulation diverged"),
 ];
 
 /// Figures of the states and the plots of a run.
@@ -342,6 +342,6 @@ pub(crate) fn members(owner: Type) -> &'static [Member] {
         Type::Body => &BODY,
         Type::Vector(_) | Type::Position | Type::Direction => &VECTOR,
         Type::Run => &RUN,
-        Type::Truth | Type::Choice(_) | Type::Scalar(_) | Type::Compound(_) | Type::Monitor(_) => &[],
+        Type::Bool | Type::Choice(_) | Type::Scalar(_) | Type::Compound(_) | Type::Monitor(_) => &[],
     }
 }

@@ -43,7 +43,7 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
 
 | type | units |
 |---|---|
-| `truth` | `true` or `false` |
+| `bool` | `true` or `false` |
 | `whisker` | one of the bound whiskers |
 | `contour` | the contour of a whisker: `w.contour` |
 "

@@ -26,7 +26,7 @@ pub enum VariableValue {
     /// A vector (SI) and its dimension.
     Vector([f64; 2], Dimension),
     /// A bool.
-    Truth(bool),
+    Bool(bool),
     /// The name of a whisker, a contour or a value of an enumeration.
     Name(String),
 }
@@ -51,7 +51,7 @@ impl Variable {
             r#type if let Some(dimension) = r#type.components() => {
                 VariableValue::Vector([value, at(self.value.register + 1)?], dimension)
             }
-            Type::Truth => VariableValue::Truth(value > 0.5),
+            Type::Bool => VariableValue::Bool(value > 0.5),
             Type::Whisker | Type::Contour => VariableValue::Name(program.contour_name(index(value))?.to_owned()),
             Type::Choice(_) => VariableValue::Name(self.choices.get(index(value))?.clone()),
             _ => return None,
@@ -72,7 +72,7 @@ impl std::fmt::Display for VariableValue {
             Self::Vector([x, y], dimension) => {
                 write!(f, "({}, {})", format_si(*x, *dimension), format_si(*y, *dimension))
             }
-            Self::Truth(truth) => write!(f, "{truth}"),
+            Self::Bool(truth) => write!(f, "{truth}"),
             Self::Name(name) => f.write_str(name),
         }
     }

@@ -367,7 +367,7 @@ fn parameter_type(tokens: &[Token<'_>]) -> Option<Type> {
         && equals.is("=")
         && ["true", "false"].contains(&value.text)
     {
-        return Some(Type::Truth);
+        return Some(Type::Bool);
     }
     let value = tokens.get(1..)?.iter().take(3).position(|token| token.kind == TokenKind::Number)? + 1;
     let dimension = match tokens.get(value + 1) {

@@ -29,7 +29,7 @@ impl<'f> Compiler<'f> {
             self.report(diagnostic.hint("every state that uses a behaviour has its contracts; use fewer"));
         }
         let start = self.code.here();
-        let condition = self.expect(scope, &contract.condition, Type::Truth);
+        let condition = self.expect(scope, &contract.condition, Type::Bool);
         let lasting = match &contract.time {
             None => Some(None),
             Some(time) => self.expect(scope, time, Type::TIME).map(|time| Some(time.register)),

@@ -29,9 +29,9 @@ impl<'f> Compiler<'f> {
                 let (value, dimension) = self.quantity(quantity)?;
                 Some(Value { r#type: Type::Scalar(dimension), register: self.code.constant(value) })
             }
-            Kind::Truth(truth) => {
+            Kind::Bool(truth) => {
                 let register = self.code.constant(f64::from(u8::from(*truth)));
-                Some(Value { r#type: Type::Truth, register })
+                Some(Value { r#type: Type::Bool, register })
             }
             Kind::Root { name, values } => self.root(scope, name, values.as_deref(), expression.span),
             Kind::Member { owner, name, values } => self.member(scope, owner, name, values.as_deref()),
@@ -47,8 +47,8 @@ impl<'f> Compiler<'f> {
                 Some(Value { register, ..value })
             }
             Kind::Not(inner) => {
-                let a = self.expect(scope, inner, Type::Truth)?;
-                Some(Value { r#type: Type::Truth, register: self.code.scalar(|to| Op::Not { to, a: a.register }) })
+                let a = self.expect(scope, inner, Type::Bool)?;
+                Some(Value { r#type: Type::Bool, register: self.code.scalar(|to| Op::Not { to, a: a.register }) })
             }
             Kind::Named { name, value } => {
                 self.expression(scope, value);
@@ -64,7 +64,7 @@ impl<'f> Compiler<'f> {
                 let (left_value, right_value) = (self.expression(scope, left), self.expression(scope, right));
                 let (left_value, right_value) = (left_value?, right_value?);
                 let value = self.binary(*operator, (left_value, left.span), (right_value, right.span))?;
-                if let (Type::Truth, Type::Scalar(dimension)) = (value.r#type, left_value.r#type) {
+                if let (Type::Bool, Type::Scalar(dimension)) = (value.r#type, left_value.r#type) {
                     let origin = Origin { span: expression.span, compared: Some(dimension) };
                     self.code.origins.note(value.register, origin);
                 }
@@ -108,11 +108,11 @@ impl<'f> Compiler<'f> {
                     diagnostic.hint("a position and a displacement add to a position, as in `body.position + v`");
             }
             (Type::Scalar(_), Type::Vector(_)) => diagnostic = diagnostic.hint("`|v|` is the length of a vector"),
-            (Type::Truth, Type::Scalar(_)) => {
+            (Type::Bool, Type::Scalar(_)) => {
                 diagnostic = diagnostic.hint("compare it with something, such as `x > 0`");
             }
             (Type::Contour, Type::Whisker) => diagnostic = diagnostic.hint("`w.contour` is the contour of a whisker"),
-            (Type::Truth, Type::Whisker) => {
+            (Type::Bool, Type::Whisker) => {
                 diagnostic = diagnostic.hint("`w.touching` is true if a whisker touches");
             }
             _ => {}
@@ -321,7 +321,7 @@ impl<'f> Compiler<'f> {
 
     /// Lowers a conditional expression. Both sides are always computed.
     fn choice(&mut self, scope: &Scope<'f>, condition: &'f Expression, sides: [&'f Expression; 2]) -> Option<Value> {
-        let condition = self.expect(scope, condition, Type::Truth);
+        let condition = self.expect(scope, condition, Type::Bool);
         let [first, second] = sides.map(|side| self.expression(scope, side));
         let (condition, first, second) = (condition?.register, first?, second?);
         let r#type = if first.r#type.fits(second.r#type) { second.r#type } else { first.r#type };

@@ -14,11 +14,11 @@ impl Compiler<'_> {
     pub(super) fn binary(&mut self, operator: Binary, left: (Value, Span), right: (Value, Span)) -> Option<Value> {
         let ((left, left_span), (right, right_span)) = (left, right);
         let (a, b) = (left.register, right.register);
-        let truth = |register| Some(Value { r#type: Type::Truth, register });
+        let truth = |register| Some(Value { r#type: Type::Bool, register });
         let (left, right) = (left.calculated(), right.calculated());
         match (operator, left.r#type, right.r#type) {
-            (Binary::Or, Type::Truth, Type::Truth) => truth(self.code.scalar(|to| Op::Or { to, a, b })),
-            (Binary::And, Type::Truth, Type::Truth) => truth(self.code.scalar(|to| Op::And { to, a, b })),
+            (Binary::Or, Type::Bool, Type::Bool) => truth(self.code.scalar(|to| Op::Or { to, a, b })),
+            (Binary::And, Type::Bool, Type::Bool) => truth(self.code.scalar(|to| Op::And { to, a, b })),
             (Binary::Less, Type::Scalar(l), Type::Scalar(r)) if l == r => {
                 truth(self.code.scalar(|to| Op::Less { to, a, b }))
             }
@@ -32,7 +32,7 @@ impl Compiler<'_> {
                 truth(self.code.scalar(|to| Op::LessOrEqual { to, a: b, b: a }))
             }
             (Binary::Equal | Binary::Unequal, l, r)
-                if l == r && matches!(l, Type::Truth | Type::Choice(_) | Type::Whisker | Type::Scalar(_)) =>
+                if l == r && matches!(l, Type::Bool | Type::Choice(_) | Type::Whisker | Type::Scalar(_)) =>
             {
                 let equal = self.code.scalar(|to| Op::Equal { to, a, b });
                 truth(if operator == Binary::Equal { equal } else { self.code.scalar(|to| Op::Not { to, a: equal }) })
@@ -98,7 +98,7 @@ impl Compiler<'_> {
 /// Advice for operands of types that do not fit.
 pub(super) fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<String> {
     match (operator, left, right) {
-        (Binary::Or | Binary::And, ..) => Some("both sides must be truth values".to_owned()),
+        (Binary::Or | Binary::And, ..) => Some("both sides must be bools".to_owned()),
         (_, Type::Scalar(dimension), Type::Scalar(Dimension::NUMBER))
         | (_, Type::Scalar(Dimension::NUMBER), Type::Scalar(dimension)) => {
             Some(format!("give the plain number a unit, such as {}", units_of(dimension).join(", ")))
@@ -117,7 +117,7 @@ pub(super) fn binary_hint(operator: Binary, left: Type, right: Type) -> Option<S
             Some("a position cannot be scaled; `a - b` is the displacement from `b` to `a`".to_owned())
         }
         (Binary::Multiply, Type::Vector(_), Type::Vector(_)) => Some("write `dot(a, b)` or `cross(a, b)`".to_owned()),
-        (Binary::Less | Binary::LessOrEqual | Binary::Greater | Binary::GreaterOrEqual, Type::Truth, _) => {
+        (Binary::Less | Binary::LessOrEqual | Binary::Greater | Binary::GreaterOrEqual, Type::Bool, _) => {
             Some("write `a < b and b < c`".to_owned())
         }
         (

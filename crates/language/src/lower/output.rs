@@ -19,8 +19,7 @@ impl<'f> Compiler<'f> {
         let kind = match (shown.r#type, self.output_kind(shown.r#type)) {
             (_, Some(kind)) if kind.width() == 1 && kind != OutputKind::Whisker => kind,
             (other, _) => {
-                let advice =
-                    "plot a number, a truth or a value of an enumeration, such as a component `.x` of a vector";
+                let advice = "plot a number, a bool or a value of an enumeration, such as a component `.x` of a vector";
                 return self.mismatch(value.span, other, advice);
             }
         };
@@ -100,7 +99,7 @@ impl<'f> Compiler<'f> {
             None => self.mismatch(
                 value.span,
                 shown.r#type,
-                "log a number, a truth, a value of an enumeration, a vector or a whisker",
+                "log a number, a bool, a value of an enumeration, a vector or a whisker",
             ),
         }
     }
@@ -118,7 +117,7 @@ impl<'f> Compiler<'f> {
 
     fn output_kind(&mut self, of: Type) -> Option<OutputKind> {
         Some(match of {
-            Type::Truth => OutputKind::Truth,
+            Type::Bool => OutputKind::Truth,
             Type::Scalar(dimension) => OutputKind::Number(dimension),
             r#type if let Some(dimension) = r#type.components() => OutputKind::Vector(dimension),
             Type::Whisker => OutputKind::Whisker,

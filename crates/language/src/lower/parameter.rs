@@ -15,9 +15,7 @@ impl<'f> Compiler<'f> {
     pub(super) fn parameter(&mut self, parameter: &'f Parameter) -> Option<(machine::Parameter, Type)> {
         let (choices, r#type, number) = match &parameter.value {
             Setting::Number(value) => return self.number(parameter, value),
-            Setting::Truth(truth, _) => {
-                (["false", "true"].map(str::to_owned).to_vec(), Type::Truth, usize::from(*truth))
-            }
+            Setting::Bool(truth, _) => (["false", "true"].map(str::to_owned).to_vec(), Type::Bool, usize::from(*truth)),
             Setting::Choice(of, value) => {
                 let item = self.enumeration(of)?;
                 (self.choice_names(item), item.r#type(), self.choice_number(item, value)?)
@@ -49,7 +47,7 @@ impl<'f> Compiler<'f> {
                 let (value_si, dimension) = self.bound(bound, None)?;
                 ParameterValue::Quantity(Quantity { value_si, dimension, unit: None })
             }
-            Setting::Truth(truth, _) => ParameterValue::Choice(truth.to_string()),
+            Setting::Bool(truth, _) => ParameterValue::Choice(truth.to_string()),
             Setting::Choice(of, value) => {
                 let item = self.enumeration(of)?;
                 self.choice_number(item, value)?;

@@ -25,7 +25,7 @@ impl Compiler<'_> {
                 if matches!(signal.r#type, Type::Scalar(_))
                     && (within.r#type, lasting.r#type) == (signal.r#type, Type::TIME) =>
             {
-                (Type::Truth, self.settled([signal, within, lasting].map(|value| value.register)))
+                (Type::Bool, self.settled([signal, within, lasting].map(|value| value.register)))
             }
             (Function::PathLength, &[Value { r#type: Type::Position, register }]) => {
                 (Type::LENGTH, self.path_length(register))

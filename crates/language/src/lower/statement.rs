@@ -174,7 +174,7 @@ impl<'f> Compiler<'f> {
     ) {
         let mut exits = Vec::new();
         for (condition, block) in branches {
-            let a = self.expect(scope, condition, Type::Truth).map_or(0, |value| value.register);
+            let a = self.expect(scope, condition, Type::Bool).map_or(0, |value| value.register);
             let skip = self.code.here();
             self.code.push(Op::JumpUnless { a, target: skip + 1 });
             self.statements(scope, block);

@@ -398,7 +398,7 @@ impl<'f> Compiler<'f> {
         let start = self.code.here();
         match guard {
             Guard::When { condition, lasting } => {
-                let truth = self.expect(scope, condition, Type::Truth);
+                let truth = self.expect(scope, condition, Type::Bool);
                 let lasting = match lasting {
                     None => Some(None),
                     Some(time) => self.expect(scope, time, Type::TIME).map(|time| {

@@ -78,7 +78,7 @@ impl<'f> Compiler<'f> {
         let (mark, before) = (self.code.mark(), self.code.initial.len());
         let start = self.code.here() as usize;
         self.figures = Some(Vec::new());
-        let value = self.expect(&Scope::default(), truth, Type::Truth);
+        let value = self.expect(&Scope::default(), truth, Type::Bool);
         let figures = self.figures.take().unwrap_or_default();
         let code = self.code.ops.get(start..).unwrap_or_default().to_vec();
         // All tests share the registers of the program. There may be thousands of both.
@@ -143,9 +143,9 @@ impl<'f> Compiler<'f> {
         };
         let r#type = match plots[index].kind {
             OutputKind::Number(dimension) => Type::Scalar(dimension),
-            OutputKind::Truth => Type::Truth,
+            OutputKind::Truth => Type::Bool,
             OutputKind::Choice(_) | OutputKind::Vector(_) | OutputKind::Whisker => {
-                let message = format!("the plot `{}` has neither numbers nor truths", plot.text);
+                let message = format!("the plot `{}` has neither numbers nor bools", plot.text);
                 let diagnostic = Diagnostic::error("P0301", message, plot.span, "has values of an enumeration");
                 self.report(diagnostic.hint("plot the comparison with a value: `plot is_left = side == Side.left`"));
                 return None;

@@ -96,7 +96,7 @@ fn operand(reader: &mut Reader<'_>) -> Parsed<Expression> {
             let span = Span::new(span.start, inner.span.end);
             members(&mut reader, Expression { span, ..inner })
         }
-        Rule::truth => node(Kind::Truth(pair.as_str() == "true"), span, 0),
+        Rule::bool => node(Kind::Bool(pair.as_str() == "true"), span, 0),
         Rule::quantity => node(Kind::Quantity(quantity(pair)?), span, 0),
         Rule::access => access(pair),
         _ => Err(internal(span)),

@@ -20,7 +20,7 @@ pub struct Contract {
     /// The moments at which it is evaluated.
     pub moment: Moment,
     /// Its text in the policy, on one line of at most [`DESCRIPTION_LIMIT`](super::DESCRIPTION_LIMIT) bytes:
-    /// `never w.tip_spread > 2 mm for 1 s`.
+    /// `never w.tip_deviation > 2 mm for 1 s`.
     pub text: Arc<str>,
     /// Code of its condition.
     pub code: Block,

@@ -236,7 +236,7 @@ pub struct ShownMessage {
     pub values: Vec<(Arc<str>, Shown)>,
 }
 
-/// The text with all values, as in `the edge was lost: w = r0, |w.deflection| = 120 urad`.
+/// The text with all values, as in `the edge was lost: w = r0, |w.base_angle| = 120 urad`.
 impl fmt::Display for ShownMessage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)?;

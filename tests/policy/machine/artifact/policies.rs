@@ -19,14 +19,14 @@ needs sample_rate in 200 .. 300 Hz
 needs sample_age in 0 .. 10 ms
 param fast = 50 mm/s in 1 .. 200 mm/s
 param free = 2
-let bend(w: whisker) = abs(w.deflection) + turn(w.yaw, body.yaw) * sign(w.side) * w.sense
+let bend(w: whisker) = abs(w.base_angle) + turn(w.yaw, body.yaw) * sign(w.side) * w.sense
 law touch(w: whisker, s: speed) {
-  let v = w.contour.point(1 mm) + w.tip_spread * (w.contour.normal + w.contour.tangent(exp(0) * 1 mm)) + w.tip_at(bend(w)) + w.tip_base - w.tip + rotate(w.base - body.position, 1 rad)
+  let v = w.contour.point(1 mm) + w.tip_deviation * (w.contour.normal + w.contour.tangent(exp(0) * 1 mm)) + w.tip_at(bend(w)) + w.tip_base - w.tip + rotate(w.base - body.position, 1 rad)
   if w.touching and not w.contour.ready or |v| < w.length { record w }
   else if w.contour.curvature == 0 rad/m { hold }
   else { steer w along v at s facing angle(w.contour.end - body.position) }
 }
-monitor felt(w: whisker) { var most = 0 rad  if w.touching { set most = max(most, w.deflection) } }
+monitor felt(w: whisker) { var most = 0 rad  if w.touching { set most = max(most, w.base_angle) } }
 monitor right is felt(a)
 var farthest = 0 m
 if a.touching { set farthest = max(farthest, |a.tip - a.base| + right.most * 1 m / 1 rad)  mark found a }
