@@ -29,6 +29,8 @@ mod near_misses;
 mod options;
 mod output;
 mod pareto;
+#[cfg(feature = "live")]
+mod playground;
 mod progress;
 mod provenance;
 mod push;
@@ -113,6 +115,9 @@ enum Command {
     Push(push::PushArguments),
     /// Repeat a recorded run through driver, perception and machine, and compare every result bit for bit
     Replay(replay::ReplayArguments),
+    /// Serve the playground that `cargo x playground` has built to this machine
+    #[cfg(feature = "live")]
+    Playground(playground::PlaygroundArguments),
     /// Write files for a shell, a manual or the services of a robot
     #[command(subcommand)]
     Setup(Setup),
@@ -150,6 +155,8 @@ fn carried_out(arguments: &Arguments) -> Exit {
         Command::Drive(arguments) => drive::drive(arguments),
         Command::Push(arguments) => push::push(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        #[cfg(feature = "live")]
+        Command::Playground(arguments) => playground::playground(arguments),
         Command::Graph(arguments) => graph::graph(arguments),
         Command::Study(study) => study.run(),
         Command::Inspect(inspect) => inspect.run(),

@@ -13,9 +13,9 @@ use tungstenite::{Error, Message};
 use super::counterfactual::{Question, answer};
 use super::hub::Hub;
 use super::log::RunLog;
-use super::message::{History, PageMessage, Piece, ServerMessage, Ticks};
 use super::socket::Socket;
 use super::watcher::breakpoints_with;
+use vibrissa_lab::stream::message::{History, PageMessage, Piece, ServerMessage, Ticks};
 
 /// The largest number of ticks in a message. Of more that are new, the oldest are lost.
 const BATCH: usize = 120;

@@ -9,8 +9,8 @@ use vibrissa_runtime::machine::{Observer, Program, TransitionId};
 use vibrissa_runtime::signal::{Command, Sample};
 
 use super::log::{RunLog, TickResult};
-use super::message::{CounterfactualFrame, CounterfactualKind, FirstDifference, Piece};
 use vibrissa_lab::run::{Ending, Step, Trace, Watcher};
+use vibrissa_lab::stream::message::{CounterfactualFrame, CounterfactualKind, FirstDifference, Piece};
 use vibrissa_lab::trial::Trial;
 
 /// The number of ticks in a piece. The first one is shorter, so that an answer appears at once.
@@ -157,7 +157,7 @@ fn recorded<S: FnMut(Piece) -> bool>(question: &Question, mut answer: Answer<'_,
                 control.replace_command(before.command);
             }
             let after = taken.result(log, &control, command);
-            let states = log.path(after.state);
+            let states = log.hello.chart.path(after.state);
             let frame = CounterfactualFrame { tick, time: after.time, states, pose: None, contour: Vec::new() };
             if !answer.push(frame, before.as_ref(), &after) {
                 answer.finish("canceled");
@@ -206,7 +206,7 @@ fn closed_loop<S: FnMut(Piece) -> bool>(question: &Question, mut answer: Answer<
             let frame = CounterfactualFrame {
                 tick,
                 time: after.time,
-                states: log.path(after.state),
+                states: log.hello.chart.path(after.state),
                 pose: Some([body.position.x, body.position.y, body.heading]),
                 contour: record.tips.iter().flatten().map(|tip| [tip.x, tip.y]).collect(),
             };

@@ -13,10 +13,10 @@ use tungstenite::{Error, Message};
 
 use super::hub::Hub;
 use super::log::RunLog;
-use super::message::{Frame, GuardFrame, PartInfo};
 use super::socket::Socket;
 use vibrissa_lab::inspect::{GuardRecord, LeafRecord, Margin};
 use vibrissa_lab::recording::Channels;
+use vibrissa_lab::stream::message::{Frame, GuardFrame, PartInfo};
 use vibrissa_world::geometry::Point2;
 
 /// The names of the protocol.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::log::RunLog;
-use super::message::{BreakpointInfo, Metrics, Status};
+use vibrissa_lab::stream::message::{BreakpointInfo, Metrics, Status};
 
 /// While a run waits, it looks this often whether it has to end.
 const LOOK: Duration = Duration::from_millis(20);

@@ -8,9 +8,9 @@ use super::error::LiveError;
 use super::hub::Hub;
 use super::request::Access;
 use super::server::serve;
-use super::setup::RunSetup;
 use super::token::Token;
 use super::watcher::LiveWatcher;
+use vibrissa_lab::stream::RunSetup;
 
 /// How a page is served.
 #[derive(Debug, Clone, Default)]

@@ -6,14 +6,14 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, Sample};
 
-use super::change::Changeable;
-use super::guards::GuardNumbers;
-use super::message::{Frame, Hello};
 use super::sample_store::SampleStore;
-use super::setup::RunSetup;
-use super::shadow::Shadow;
 use vibrissa_lab::recording::RecordedFrame;
 use vibrissa_lab::run::Trace;
+use vibrissa_lab::stream::Changeable;
+use vibrissa_lab::stream::GuardNumbers;
+use vibrissa_lab::stream::RunSetup;
+use vibrissa_lab::stream::Shadow;
+use vibrissa_lab::stream::message::{Frame, Hello};
 use vibrissa_lab::trial::Trial;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_world::scene::Scene;
@@ -121,14 +121,6 @@ impl RunLog {
     pub(super) fn past(&self) -> MutexGuard<'_, Past> {
         // A thread that panicked has not left it half changed: it only pushes.
         self.past.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// The active states from the outermost to the innermost. None without one.
-    pub(super) fn path(&self, innermost: Option<usize>) -> Vec<usize> {
-        let parent = |state: &usize| self.hello.chart.states.get(*state)?.parent;
-        let mut path: Vec<usize> = std::iter::successors(innermost, parent).collect();
-        path.reverse();
-        path
     }
 
     /// What a transition or a state is called.
@@ -264,8 +256,8 @@ fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::live::message::{ContourFrame, Metrics};
     use proptest::prelude::*;
+    use vibrissa_lab::stream::message::{ContourFrame, Metrics};
 
     fn frame(tick: usize, tips: usize, plot: Option<f64>) -> Arc<Frame> {
         let tip =

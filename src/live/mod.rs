@@ -5,33 +5,28 @@
 //!
 //! Why: docs/decisions/recordings.md#the-live-page-is-served-by-threads-from-copies-of-the-control-loop.
 
-mod change;
 mod client;
 mod counterfactual;
 mod error;
+mod folder;
 mod foxglove;
-mod frame;
-mod guards;
-mod hello;
 mod hub;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod live;
 mod log;
-mod message;
 mod page;
 mod places;
 mod replay;
 mod request;
 mod sample_store;
 mod server;
-mod setup;
-mod shadow;
 mod socket;
 mod token;
 mod watcher;
 
 pub use error::LiveError;
+pub use folder::serve_folder;
 pub use live::{Live, LiveOptions};
 pub use replay::LiveReplay;
-pub use setup::RunSetup;
+pub use vibrissa_lab::stream::RunSetup;
 pub use watcher::LiveWatcher;

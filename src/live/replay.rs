@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::setup::RunSetup;
 use vibrissa_lab::recording::RunRecording;
 use vibrissa_lab::run::{Run, Watcher, drive};
+use vibrissa_lab::stream::RunSetup;
 use vibrissa_lab::trial::Trial;
 use vibrissa_runtime::control::{BindError, Control};
 use vibrissa_runtime::signal::{Command, Sample};

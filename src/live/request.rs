@@ -51,23 +51,8 @@ impl Access {
     pub(super) fn check(&self, head: &[u8]) -> Result<Request, Refused> {
         let mut headers = [httparse::EMPTY_HEADER; HEADER_LIMIT];
         let mut request = httparse::Request::new(&mut headers);
-        let Ok(httparse::Status::Complete(_)) = request.parse(head) else { return Err(BAD) };
-        let (Some("GET"), Some(target)) = (request.method, request.path) else { return Err(BAD) };
-        let header = |name: &str| {
-            let mut found = request.headers.iter().filter(|header| header.name.eq_ignore_ascii_case(name));
-            found.next().and_then(|header| std::str::from_utf8(header.value).ok()).map(str::trim)
-        };
-        // A page of another site whose name was made to lead here has that name in `Host`.
-        if !header("host").is_some_and(|host| self.is_own(host)) {
-            return Err(OTHER_HOST);
-        }
-        let (path, query) = target.split_once('?').unwrap_or((target, ""));
-        if let Some(token) = &self.token {
-            let given = query.split('&').find_map(|pair| pair.strip_prefix("token="));
-            if !given.is_some_and(|given| token.is(given)) {
-                return Err(NO_TOKEN);
-            }
-        }
+        let path = self.admit(&mut request, head)?;
+        let header = |name: &str| header(&request, name);
         match path {
             "/" => Ok(Request::Page),
             "/live" => {
@@ -89,6 +74,33 @@ impl Access {
         }
     }
 
+    /// The path that the head of a request asks for.
+    ///
+    /// # Errors
+    /// [`Refused`] with the answer.
+    pub(super) fn path(&self, head: &[u8]) -> Result<String, Refused> {
+        let mut headers = [httparse::EMPTY_HEADER; HEADER_LIMIT];
+        self.admit(&mut httparse::Request::new(&mut headers), head).map(str::to_owned)
+    }
+
+    /// Reads the head of a request into `request`. The result is its path, if the request may be answered.
+    fn admit<'h>(&self, request: &mut httparse::Request<'_, 'h>, head: &'h [u8]) -> Result<&'h str, Refused> {
+        let Ok(httparse::Status::Complete(_)) = request.parse(head) else { return Err(BAD) };
+        let (Some("GET"), Some(target)) = (request.method, request.path) else { return Err(BAD) };
+        // A page of another site whose name was made to lead here has that name in `Host`.
+        if !header(request, "host").is_some_and(|host| self.is_own(host)) {
+            return Err(OTHER_HOST);
+        }
+        let (path, query) = target.split_once('?').unwrap_or((target, ""));
+        if let Some(token) = &self.token {
+            let given = query.split('&').find_map(|pair| pair.strip_prefix("token="));
+            if !given.is_some_and(|given| token.is(given)) {
+                return Err(NO_TOKEN);
+            }
+        }
+        Ok(path)
+    }
+
     /// True if a host and its port name this server: by an IP address, or by `localhost` if only this machine is served.
     fn is_own(&self, host: &str) -> bool {
         let (name, port) = match host.rsplit_once(':') {
@@ -108,6 +120,12 @@ impl Access {
         // Behind the tunnel of a token, names of other machines are allowed.
         port == Some(self.address.port()) && (is_own_name || (self.token.is_some() && address.is_err()))
     }
+}
+
+/// The first header of a request with a name.
+fn header<'h>(request: &httparse::Request<'_, 'h>, name: &str) -> Option<&'h str> {
+    let mut found = request.headers.iter().filter(|header| header.name.eq_ignore_ascii_case(name));
+    found.next().and_then(|header| std::str::from_utf8(header.value).ok()).map(str::trim)
 }
 
 #[cfg(test)]

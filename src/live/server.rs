@@ -13,34 +13,46 @@ use super::client::serve_page;
 use super::error::LiveError;
 use super::foxglove::{PROTOCOLS, serve_viewer};
 use super::hub::Hub;
-use super::message::PROTOCOL;
 use super::page::{POLICY, page};
 use super::places::Places;
 use super::request::{Access, HEAD_LIMIT, Refused, Request};
+use vibrissa_lab::stream::message::PROTOCOL;
 
 /// The head of a request has to arrive as a whole within this time.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(5);
 /// The longest message of a page (bytes).
 const MESSAGE_LIMIT: usize = 1 << 20;
 
-/// Begins to serve connections. The result is the address with its port.
+/// Begins to serve the page of runs. The result is the address with its port.
 pub(super) fn serve(
     address: SocketAddr,
     access: impl FnOnce(SocketAddr) -> Access,
     hub: &Arc<Hub>,
 ) -> Result<SocketAddr, LiveError> {
+    let hub = Arc::clone(hub);
+    serve_by(address, access, Access::check, move |stream, request| answer(stream, request, &hub))
+}
+
+/// Begins to serve connections. `check` reads the head of a request, and `answer` answers one that is permitted. The result is the
+/// address with its port.
+pub(super) fn serve_by<R: 'static>(
+    address: SocketAddr,
+    access: impl FnOnce(SocketAddr) -> Access,
+    check: fn(&Access, &[u8]) -> Result<R, Refused>,
+    answer: impl Fn(TcpStream, R) -> std::io::Result<()> + Send + Sync + 'static,
+) -> Result<SocketAddr, LiveError> {
     let listen = |cause| LiveError::Listen { address, cause };
     let listener = TcpListener::bind(address).map_err(listen)?;
     let bound = listener.local_addr().map_err(listen)?;
-    let (access, hub) = (Arc::new(access(bound)), Arc::clone(hub));
+    let (access, answer) = (Arc::new(access(bound)), Arc::new(answer));
     let accept = move || {
         let places = Arc::new(Places::default());
         for stream in listener.incoming().flatten() {
             let Ok(number) = places.begin(&stream) else { continue };
-            let (access, hub, held) = (Arc::clone(&access), Arc::clone(&hub), Arc::clone(&places));
+            let (access, answer, held) = (Arc::clone(&access), Arc::clone(&answer), Arc::clone(&places));
             let connection = move || {
                 // A connection that breaks ends its thread alone.
-                let _ = connect(stream, number, &access, &hub, &held);
+                let _ = connect(stream, (number, &held), |head| check(&access, head), &*answer);
                 held.end(number);
             };
             if thread::Builder::new().name("live connection".to_owned()).spawn(connection).is_err() {
@@ -53,17 +65,16 @@ pub(super) fn serve(
 }
 
 /// Answers one connection.
-fn connect(
+fn connect<R>(
     mut stream: TcpStream,
-    number: u64,
-    access: &Access,
-    hub: &Arc<Hub>,
-    places: &Places,
+    (number, places): (u64, &Places),
+    check: impl FnOnce(&[u8]) -> Result<R, Refused>,
+    answer: impl FnOnce(TcpStream, R) -> std::io::Result<()>,
 ) -> std::io::Result<()> {
     stream.set_write_timeout(Some(REQUEST_TIMEOUT))?;
     let head = head(&mut stream, Instant::now() + REQUEST_TIMEOUT)?;
     stream.set_read_timeout(Some(REQUEST_TIMEOUT))?;
-    let request = access.check(&head);
+    let request = check(&head);
     places.end(number);
     match request {
         Err(refused) => refuse(stream, refused),
@@ -71,7 +82,7 @@ fn connect(
             refuse(stream, Refused("503 Service Unavailable", "too many pages are open; close some of them"))
         }
         Ok(request) => {
-            let answered = answer(stream, request, hub);
+            let answered = answer(stream, request);
             places.leave();
             answered
         }
@@ -138,7 +149,7 @@ fn head(stream: &mut TcpStream, deadline: Instant) -> std::io::Result<Vec<u8>> {
 }
 
 /// Answers a request that is refused.
-fn refuse(mut stream: TcpStream, Refused(status, advice): Refused) -> std::io::Result<()> {
+pub(super) fn refuse(mut stream: TcpStream, Refused(status, advice): Refused) -> std::io::Result<()> {
     let length = advice.len() + 1;
     let answer = format!(
         "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {length}\r\nConnection: close\r\n\r\n{advice}\n"

@@ -9,17 +9,17 @@ use vibrissa_runtime::machine::Observer;
 use vibrissa_runtime::signal::Sample;
 
 use super::error::LiveError;
-use super::frame::Frames;
-use super::hello::{breakpoints, hello};
 use super::hub::{Hub, Pace};
 use super::log::{Executed, RunLog, TickResult};
-use super::message::{BreakpointInfo, Timing};
-use super::setup::RunSetup;
-use super::shadow::Shadow;
 use vibrissa_lab::inspect::Breakpoints;
 use vibrissa_lab::recording::RecordedFrame;
 use vibrissa_lab::results::Ending;
 use vibrissa_lab::run::{Run, Trace, Watcher};
+use vibrissa_lab::stream::Frames;
+use vibrissa_lab::stream::RunSetup;
+use vibrissa_lab::stream::Shadow;
+use vibrissa_lab::stream::message::{BreakpointInfo, Timing};
+use vibrissa_lab::stream::{breakpoints, hello};
 use vibrissa_lab::trial::TrialResult;
 use vibrissa_text::diagnostic::{Diagnostic, Source};
 
@@ -185,7 +185,8 @@ impl Watcher for LiveWatcher<'_> {
         let timing = self.timing(trace);
         let (_, hit) = self.shadow.tick(&self.samples);
         let Some(tick) = trace.ticks.last() else { return ControlFlow::Continue(()) };
-        let Some(frame) = self.frames.frame(trace, (&self.shadow, &self.log.numbers, &self.log), timing) else {
+        let Some(frame) = self.frames.frame(trace, (&self.shadow, &self.log.numbers, &self.log.hello.chart), timing)
+        else {
             return ControlFlow::Continue(());
         };
         self.log.names.get_or_init(|| without_ticks(trace));

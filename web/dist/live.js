@@ -626,7 +626,7 @@
     }
     #key(event) {
       const target = event.target;
-      if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range], [type=radio]), select")) {
+      if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range], [type=radio]), select, [contenteditable=true]")) {
         return;
       }
       const actions = {
@@ -1989,6 +1989,8 @@
   var BEHIND = 0.4;
   var Page = class {
     #root;
+    /** Where controls and scene are shown. Above and among the other panels if undefined. */
+    #stage;
     #controls;
     #connection;
     #plots = element("div", "plots");
@@ -2003,11 +2005,12 @@
     #isScheduled = false;
     #timer;
     #shownAt = 0;
-    constructor(root2) {
+    constructor(root2, connect = (receive, change) => new Connection(receive, change), stage) {
+      this.#stage = stage;
       this.#root = root2;
       this.#controls = new Controls(this, () => this.#chart?.up());
-      root2.replaceChildren(this.#controls.element);
-      this.#connection = new Connection(
+      (stage ?? root2).replaceChildren(this.#controls.element);
+      this.#connection = connect(
         (message) => this.#receive(message),
         (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second.")
       );
@@ -2104,14 +2107,18 @@
       const figures = new Figures();
       const breakpoints = new BreakpointList(run, this);
       this.#panels = [this.#controls, scene, this.#chart, guards, figures, breakpoints, this.#counterfactual];
+      const { breakpoints: breaks, counterfactual, closed_loop: closedLoop } = hello.capabilities;
+      breakpoints.element.hidden = !breaks && hello.command === "run";
+      this.#counterfactual.element.hidden = !counterfactual && !closedLoop && hello.command === "run";
       this.#plots.replaceChildren();
       subjects(run).forEach((subject) => this.#plot(subject));
       const columns = [
-        element("div", "column", scene.element, figures.element, breakpoints.element),
+        element("div", "column", ...this.#stage === void 0 ? [scene.element] : [], figures.element, breakpoints.element),
         element("div", "column", this.#chart.element, guards.element),
         element("div", "column", element("section", "", element("h2", "", "Plots"), this.#plots), this.#counterfactual.element)
       ];
-      this.#root.replaceChildren(this.#controls.element, element("div", "panels", ...columns));
+      this.#stage?.replaceChildren(this.#controls.element, scene.element);
+      this.#root.replaceChildren(...this.#stage === void 0 ? [this.#controls.element] : [], element("div", "panels", ...columns));
     }
     #plotGuard(guard) {
       for (const subject of subjectsOf(guard)) {

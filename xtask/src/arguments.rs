@@ -29,6 +29,7 @@ Commands:
   web     check the scripts of the pages and bundle them into web/dist; needs npm
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
+  playground  build the playground for the browser in target/playground; needs npm and the target wasm32-unknown-unknown
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
             --stale        only the pages whose inputs have changed, all of them without names; goes on where it was stopped
             --check        only say which pages that are
@@ -68,6 +69,7 @@ pub(crate) enum Command {
     Python,
     Pi,
     Web,
+    Playground,
     Fuzz(u64),
 }
 
@@ -116,6 +118,7 @@ impl Command {
             "python" => Self::Python,
             "pi" => Self::Pi,
             "web" => Self::Web,
+            "playground" => Self::Playground,
             "fuzz" => {
                 let count = arguments.next().and_then(|count| count.to_str()?.parse().ok());
                 Self::Fuzz(count.ok_or(ArgumentError::NoCount)?)

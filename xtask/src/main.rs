@@ -20,6 +20,7 @@ mod nightly;
 mod pi;
 mod pieces;
 mod platform;
+mod playground;
 mod prose;
 mod python;
 mod results;
@@ -72,6 +73,7 @@ fn main() -> ExitCode {
         Command::Python => status(python::test(&root)),
         Command::Pi => status(pi::pack(&root)),
         Command::Web => status(web::write(&root)),
+        Command::Playground => status(playground::build(&root).map(|folder| println!("{}", folder.display()))),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),
     }
 }

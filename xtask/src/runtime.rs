@@ -13,13 +13,14 @@ use crate::standard_library::is_installed;
 const PACKAGE: &str = "vibrissa-runtime";
 /// The direct dependencies that it may have. Each must build for small targets and need no system library.
 const ALLOWED: [&str; 8] = ["biquad", "libm", "nalgebra", "postcard", "serde", "sha2", "strsim", "thiserror"];
-/// The targets that packages must build for: pages in a browser for the runtime, the language and the
-/// quasi-static simulator, and microcontrollers without an operating
+/// The targets that packages must build for: pages in a browser for the runtime, the language, the
+/// quasi-static simulator and the playground, and microcontrollers without an operating
 /// system for the driver of the sensor. The Raspberry Pi has a check of its own.
-const BUILDS: [(&str, &str); 4] = [
+const BUILDS: [(&str, &str); 5] = [
     (PACKAGE, "wasm32-unknown-unknown"),
     ("vibrissa-language", "wasm32-unknown-unknown"),
     ("vibrissa-world", "wasm32-unknown-unknown"),
+    ("vibrissa-playground", "wasm32-unknown-unknown"),
     ("vibrissa-mlx90393", "riscv32imc-unknown-none-elf"),
 ];
 /// Cargo's arguments for the tests on aarch64. It builds both packages at once, because their dependencies would have

@@ -36,6 +36,14 @@ pub(crate) fn write(root: &Path) -> Result<(), WebError> {
     run(&web, "npm", &["run", "--silent", "bundle", "dist"])
 }
 
+/// Checks the types and writes the scripts of the playground into a folder.
+pub(crate) fn bundle_playground(root: &Path, folder: &Path) -> Result<(), WebError> {
+    let web = root.join("web");
+    prepare(&web)?;
+    fs::create_dir_all(folder).map_err(|source| WebError::Disk { action: "make", path: folder.to_owned(), source })?;
+    run(&web, "npm", &["run", "--silent", "bundle", &folder.to_string_lossy(), "playground"])
+}
+
 /// Checks the types, and that `web/dist` has the bundles of the sources.
 pub(crate) fn check(root: &Path) -> Result<(), WebError> {
     let web = root.join("web");

@@ -3,8 +3,16 @@ import type { PageMessage, ServerMessage } from "./protocol.ts";
 /** The time (ms) before another attempt to connect. */
 const PAUSE = 1000;
 
+/** What a page sends its messages to. */
+export interface Peer {
+  send(message: PageMessage): void;
+}
+
+/** Makes a connection. It passes messages on, and says whether it is open. */
+export type Connect = (receive: (message: ServerMessage) => void, change: (isOpen: boolean) => void) => Peer;
+
 /** The connection to the program. It is made again after it was lost. */
-export class Connection {
+export class Connection implements Peer {
   readonly #receive: (message: ServerMessage) => void;
   readonly #change: (isOpen: boolean) => void;
   #socket: WebSocket | undefined;

@@ -125,7 +125,7 @@ export class Controls implements Panel {
 
   #key(event: KeyboardEvent): void {
     const target = event.target as Element | null;
-    if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range], [type=radio]), select")) {
+    if (event.ctrlKey || event.altKey || event.metaKey || target?.matches("input:not([type=range], [type=radio]), select, [contenteditable=true]")) {
       return;
     }
     const actions: Record<string, () => void> = {

@@ -2,7 +2,7 @@ import { element } from "../shared/element.ts";
 import type { Answer } from "./answer.ts";
 import { BreakpointList } from "./breakpoints.ts";
 import { ChartPanel } from "./chart-panel.ts";
-import { Connection } from "./connection.ts";
+import { Connection, type Connect, type Peer } from "./connection.ts";
 import { Controls } from "./controls.ts";
 import { Counterfactual } from "./counterfactual.ts";
 import { Figures } from "./figures.ts";
@@ -22,8 +22,10 @@ const BEHIND = 0.4;
 /** The live page: it receives messages and shows them in its panels. */
 export class Page implements Actions {
   readonly #root: HTMLElement;
+  /** Where controls and scene are shown. Above and among the other panels if undefined. */
+  readonly #stage: HTMLElement | undefined;
   readonly #controls: Controls;
-  readonly #connection: Connection;
+  readonly #connection: Peer;
   readonly #plots = element("div", "plots");
   #run: Run | undefined;
   #panels: Panel[] = [];
@@ -37,11 +39,12 @@ export class Page implements Actions {
   #timer: number | undefined;
   #shownAt = 0;
 
-  constructor(root: HTMLElement) {
+  constructor(root: HTMLElement, connect: Connect = (receive, change) => new Connection(receive, change), stage?: HTMLElement) {
+    this.#stage = stage;
     this.#root = root;
     this.#controls = new Controls(this, () => this.#chart?.up());
-    root.replaceChildren(this.#controls.element);
-    this.#connection = new Connection(
+    (stage ?? root).replaceChildren(this.#controls.element);
+    this.#connection = connect(
       (message) => this.#receive(message),
       (isOpen) => this.#controls.report(isOpen ? "" : "Not connected. The page tries again every second."),
     );
@@ -146,14 +149,18 @@ export class Page implements Actions {
     const figures = new Figures();
     const breakpoints = new BreakpointList(run, this);
     this.#panels = [this.#controls, scene, this.#chart, guards, figures, breakpoints, this.#counterfactual];
+    const { breakpoints: breaks, counterfactual, closed_loop: closedLoop } = hello.capabilities;
+    breakpoints.element.hidden = !breaks && hello.command === "run";
+    this.#counterfactual.element.hidden = !counterfactual && !closedLoop && hello.command === "run";
     this.#plots.replaceChildren();
     subjects(run).forEach((subject) => this.#plot(subject));
     const columns = [
-      element("div", "column", scene.element, figures.element, breakpoints.element),
+      element("div", "column", ...(this.#stage === undefined ? [scene.element] : []), figures.element, breakpoints.element),
       element("div", "column", this.#chart.element, guards.element),
       element("div", "column", element("section", "", element("h2", "", "Plots"), this.#plots), this.#counterfactual.element),
     ];
-    this.#root.replaceChildren(this.#controls.element, element("div", "panels", ...columns));
+    this.#stage?.replaceChildren(this.#controls.element, scene.element);
+    this.#root.replaceChildren(...(this.#stage === undefined ? [this.#controls.element] : []), element("div", "panels", ...columns));
   }
 
   #plotGuard(guard: GuardInfo): void {

@@ -1,9 +1,13 @@
 //! Contacts at known positions with the counts of a sensor.
 
+#[cfg(feature = "robot")]
 use vibrissa_robot::array::Transducer;
+#[cfg(feature = "robot")]
 use vibrissa_runtime::calibration::ContactSet;
+#[cfg(feature = "robot")]
 use vibrissa_runtime::rig::Whisker;
 
+#[cfg(feature = "robot")]
 use super::hinge_fit::HingeFit;
 use vibrissa_world::geometry::Vector2;
 
@@ -20,11 +24,14 @@ pub struct CountSet {
     pub on_shaft: bool,
 }
 
+#[cfg(feature = "robot")]
 /// Steps of [`fit_field`]. A magnet without a cubic term needs two.
 const STEPS: usize = 6;
+#[cfg(feature = "robot")]
 /// Relative change of the field per moment at which the fit ends.
 const SETTLED: f64 = 1e-6;
 
+#[cfg(feature = "robot")]
 impl CountSet {
     /// The set with the base angle that the robot computes from these counts.
     #[must_use]
@@ -34,6 +41,7 @@ impl CountSet {
     }
 }
 
+#[cfg(feature = "robot")]
 /// Fits the field per base moment of a whisker's magnet, with its sign. The whisker itself is the balance: at the position
 /// of a tip contact, the mechanics have one base moment.
 ///

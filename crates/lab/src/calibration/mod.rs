@@ -17,7 +17,9 @@ mod whisker_touches;
 pub use array_calibration::{ArrayCalibration, ArrayCalibrationError};
 pub use array_calibrations::ArrayCalibrations;
 pub use contact_sets::{SetsError, read_count_sets, read_sets, write_sets};
-pub use count_set::{CountSet, fit_field};
+pub use count_set::CountSet;
+#[cfg(feature = "robot")]
+pub use count_set::fit_field;
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
 #[cfg(feature = "sim")]
 pub use simulated_rig::{CalibrationRigError, simulated_sets};

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "robot")]
 use vibrissa_robot::recording::ReadError;
 use vibrissa_runtime::machine::ArtifactError;
 
@@ -91,6 +92,7 @@ pub enum LoadError {
     #[error(transparent)]
     WithoutEffect(#[from] WithoutEffect),
     /// The file is no recording that can be used.
+    #[cfg(feature = "robot")]
     #[error("{}: {cause}", path.display())]
     Recording {
         /// The file, or the first one of several.
@@ -114,6 +116,7 @@ impl LoadError {
     }
 
     /// The error of the recording at `path`.
+    #[cfg(feature = "robot")]
     pub fn recording(path: &Path) -> impl FnOnce(ReadError) -> Self {
         let path = path.to_owned();
         |cause| Self::Recording { path, cause }

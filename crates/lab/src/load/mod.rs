@@ -3,6 +3,7 @@
 mod error;
 mod mismatch;
 mod policy;
+#[cfg(feature = "robot")]
 mod recording;
 mod scenario;
 mod seed;
@@ -17,6 +18,7 @@ pub use policy::{
     Policy, PolicyFile, PolicyText, built_in_policy, chart, named_by_built_in, policy, policy_file, policy_for,
     policy_in, policy_text, program, set, tested_policy, with_libraries, with_settings,
 };
+#[cfg(feature = "robot")]
 pub use recording::recording;
 pub use scenario::{
     beside, built_in_scenario, contact_sets, count_sets, outline_file, rig_in, scenario, scenario_in, scenario_text,

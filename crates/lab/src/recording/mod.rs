@@ -12,7 +12,6 @@ mod recorder;
 mod replay;
 mod sample_message;
 mod setup;
-mod shape;
 mod view;
 mod writer;
 
@@ -21,4 +20,4 @@ pub use read::RunRecording;
 pub use recorder::Recorder;
 pub use replay::{compare_policies, replay};
 pub use setup::Setup;
-pub use {channels::Channels, frame::RecordedFrame, shape::outline_points, shape::shaft_points};
+pub use {channels::Channels, frame::RecordedFrame};

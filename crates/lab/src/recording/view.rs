@@ -10,8 +10,8 @@ use foxglove::messages::{
 };
 use vibrissa_runtime::rig::Rig;
 
-use super::shape::{outline_points, shaft_points};
 use crate::run::TickRecord;
+use crate::stream::{outline_points, shaft_points};
 use vibrissa_world::geometry::{Contour, ContourSet, Point2};
 
 /// The frame of the scene.

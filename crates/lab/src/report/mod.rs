@@ -18,7 +18,9 @@ pub use picture::{frame, pareto_picture, picture, retrieval_picture};
 pub use style::WHISKERS;
 pub use table::Table;
 pub use tables::{
-    bench_table, comparison_tables, difference_tables, estimators_tables, faults_table, latency_table, near_miss_table,
-    pareto_table, pooled_tips, replay_tables, results_table, stop_tables, stress_tables, timing_table, worlds_table,
+    bench_table, comparison_tables, difference_tables, estimators_tables, latency_table, near_miss_table, pareto_table,
+    pooled_tips, results_table, stop_tables, stress_tables, timing_table, worlds_table,
 };
 pub use tables::{families_table, held_out_table, measured_table, summary_table, tuning_tables};
+#[cfg(feature = "robot")]
+pub use tables::{faults_table, replay_tables};

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
 
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{Artifact, ParameterValue};
@@ -11,6 +10,7 @@ use vibrissa_runtime::rig::Rig;
 use super::error::{RequestError, RequestFault};
 use super::input::{Input, PolicyInput};
 use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText};
+use crate::run::Stopwatch;
 use crate::trial::{Inputs, Trial, short_hash};
 use vibrissa_text::diagnostic::{Diagnostic, Source};
 use vibrissa_text::file::CommandFiles;
@@ -128,7 +128,7 @@ impl TrialRequest {
         files: &mut CommandFiles,
         compiled: impl FnOnce(&Policy),
     ) -> Result<(Trial, Policy), RequestError> {
-        let before = Instant::now();
+        let before = Stopwatch::start();
         let source = scenario_text(&self.scenario, files)?;
         let path = PathBuf::from(&source.name);
         let Loaded { value: mut scene, hash: mut scenario_hash } = read_scene(&self.scenario, &source, files)?;

@@ -4,6 +4,7 @@ mod calibration_identity;
 mod collisions;
 mod contract_result;
 mod document;
+#[cfg(feature = "robot")]
 mod drive_result;
 mod ending;
 mod failsafes;
@@ -12,6 +13,7 @@ mod largest_error;
 mod provenance;
 mod rate;
 mod refused;
+#[cfg(feature = "robot")]
 mod replay_result;
 mod run_result;
 mod section;
@@ -25,6 +27,7 @@ pub use calibration_identity::{CalibrationIdentity, CalibrationKind};
 pub use collisions::Collisions;
 pub use contract_result::{ContractResult, SmallestMargin};
 pub use document::{Document, Versioned};
+#[cfg(feature = "robot")]
 pub use drive_result::{DriveResult, FaultRecord, UndetectedFault};
 pub use ending::{Ending, unmet};
 pub use failsafes::Failsafes;
@@ -35,6 +38,7 @@ pub use provenance::{
     add_seeds,
 };
 pub use rate::Rate;
+#[cfg(feature = "robot")]
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub use run_result::marked;
 pub use run_result::{Hashes, Identity, MismatchIdentity, OutOfPlane, RunResult, policy_label};

@@ -6,6 +6,7 @@ mod monitor;
 mod passage_watch;
 mod stall_watch;
 mod stepped_run;
+mod stopwatch;
 mod trace;
 
 pub use contract::{ContractMargin, ContractRecord};
@@ -13,4 +14,5 @@ pub use drive::{Progress, Run, Watcher, drive};
 pub use monitor::{Ending, Monitor};
 pub use passage_watch::PassageWatch;
 pub use stepped_run::{Step, SteppedRun};
+pub(crate) use stopwatch::Stopwatch;
 pub use trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};

@@ -1,6 +1,6 @@
 //! The monitor of a run: it records the trace and decides when the run ends.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Fallback, LoggedMessage, Machine, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
@@ -14,6 +14,7 @@ use super::contract::ContractRecord;
 use super::drive::Run;
 use super::passage_watch::PassageWatch;
 use super::stall_watch::StallWatch;
+use super::stopwatch::Stopwatch;
 use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
 
 /// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
@@ -29,7 +30,7 @@ pub struct Monitor {
     stall: Option<StallWatch>,
     stop: Stop,
     most_ticks: usize,
-    start: Instant,
+    start: Stopwatch,
     first_tick: Option<Duration>,
 }
 
@@ -83,7 +84,7 @@ impl Monitor {
             stall: stop.stalled.map(StallWatch::new),
             stop: *stop,
             most_ticks,
-            start: Instant::now(),
+            start: Stopwatch::start(),
             first_tick: None,
         }
     }

@@ -1,7 +1,6 @@
 //! A run that its caller steps.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Program;
@@ -11,6 +10,7 @@ use vibrissa_world::world::World;
 
 use super::drive::{Run, Watcher};
 use super::monitor::{Ending, Monitor};
+use super::stopwatch::Stopwatch;
 use super::trace::Trace;
 
 /// A run that its caller steps, one control period at a time.
@@ -75,7 +75,7 @@ impl SteppedRun {
             Err(fault) => return Step::Ended(self.monitor.crashed(&fault)),
         };
         watcher.before_tick(samples);
-        let before_tick = Instant::now();
+        let before_tick = Stopwatch::start();
         let (command, ticked) = self.control.tick_observed(samples, watcher);
         self.monitor.tick_took(before_tick.elapsed());
         self.command = command;

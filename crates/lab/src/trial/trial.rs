@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::control::Control;
@@ -15,7 +15,7 @@ use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
 use crate::results::{CalibrationIdentity, Ending, Hashes, Identity, MismatchIdentity, RunResult, policy_label, unmet};
-use crate::run::{Progress, Run, SteppedRun, Trace, Watcher, drive};
+use crate::run::{Progress, Run, SteppedRun, Stopwatch, Trace, Watcher, drive};
 use crate::score::Score;
 use vibrissa_world::scene::{Scene, Violation, WorldSetup};
 use vibrissa_world::world::{TrueTips, World};
@@ -125,7 +125,7 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the run cannot begin, or if `watcher` stopped it.
     pub fn run_watched(&self, watcher: &mut impl Watcher) -> Result<TrialResult, ExecuteError> {
-        let before = Instant::now();
+        let before = Stopwatch::start();
         let world = std::thread::scope(|scope| {
             let prepare = || Perception::prepare(&self.assumed_rig, &self.program.contact_estimators);
             // If the system starts no thread, perception is prepared when it is built.

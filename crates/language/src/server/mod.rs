@@ -16,7 +16,9 @@ mod position;
 mod queue;
 #[expect(clippy::module_inception, reason = "one noun a file, and this one is the module's name")]
 mod server;
+mod session;
 mod transport;
 mod uri;
 
-pub use server::{Ended, serve};
+pub use server::{Ended, Library, serve};
+pub use session::Session;

@@ -34,18 +34,18 @@ pub enum Ended {
 
 /// The phase of a server's life cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
+pub(super) enum Phase {
     Uninitialized,
     Running,
     ShutDown,
 }
 
 /// Returns the text of a file that is not open in the editor, or the reason for which there is none.
-pub(super) type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
+pub type Library<'l> = dyn Fn(&str) -> Result<String, String> + 'l;
 
 /// The language server.
 pub(super) struct Server<'l> {
-    phase: Phase,
+    pub(super) phase: Phase,
     pub(super) client: Client,
     documents: HashMap<Uri, Document>,
     /// Documents that were changed or closed since their last analysis.
@@ -59,8 +59,7 @@ pub(super) struct Server<'l> {
 /// # Errors
 /// Reading or writing failed, because the editor has gone.
 pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, library: &Library<'_>) -> io::Result<Ended> {
-    let (phase, client) = (Phase::Uninitialized, Client::default());
-    let mut server = Server { phase, client, documents: HashMap::new(), changed: Vec::new(), library };
+    let mut server = Server::new(library);
     let mut queue = Queue::read_from(input)?;
     loop {
         let patience = (!server.changed.is_empty()).then_some(QUIET_TIME);
@@ -95,8 +94,16 @@ pub fn serve(input: impl BufRead + Send + 'static, output: &mut dyn Write, libra
     }
 }
 
+impl<'l> Server<'l> {
+    /// A server that waits for `initialize`.
+    pub(super) fn new(library: &'l Library<'l>) -> Self {
+        let (phase, client) = (Phase::Uninitialized, Client::default());
+        Self { phase, client, documents: HashMap::new(), changed: Vec::new(), library }
+    }
+}
+
 impl Server<'_> {
-    fn request(&mut self, id: Id, method: &str, parameters: Value) -> ResponseObject {
+    pub(super) fn request(&mut self, id: Id, method: &str, parameters: Value) -> ResponseObject {
         let refuse = |id, code, message: &str| ResponseObject::from_error(id, error(code, message));
         match (self.phase, method) {
             (Phase::Uninitialized, "initialize") => {
@@ -116,7 +123,7 @@ impl Server<'_> {
     }
 
     /// Handles a notification. Unintelligible ones are ignored, because nobody waits for an answer.
-    fn notification(&mut self, method: &str, parameters: Value) {
+    pub(super) fn notification(&mut self, method: &str, parameters: Value) {
         if let Some(uri) = self.apply(method, parameters)
             && !self.changed.contains(&uri)
         {
@@ -153,12 +160,13 @@ impl Server<'_> {
 
     /// Analyses all changed documents and publishes their diagnostics.
     fn publish_changed(&mut self, output: &mut dyn Write) -> io::Result<()> {
-        for changed in std::mem::take(&mut self.changed) {
-            for messages in self.diagnostics_after(&changed) {
-                transport::write(output, &messages)?;
-            }
-        }
-        Ok(())
+        self.changed().iter().try_for_each(|message| transport::write(output, message))
+    }
+
+    /// Analyses all changed documents. The result has the messages with their diagnostics.
+    pub(super) fn changed(&mut self) -> Vec<RequestObject> {
+        let changed = std::mem::take(&mut self.changed);
+        changed.iter().flat_map(|changed| self.diagnostics_after(changed)).collect()
     }
 
     /// The messages to publish after a document was changed or closed: for it, and for the documents that use it.

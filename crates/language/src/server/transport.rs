@@ -55,7 +55,8 @@ fn read_header(input: &mut dyn BufRead) -> io::Result<Option<usize>> {
     }
 }
 
-fn message(body: &[u8]) -> Incoming {
+/// The message of a body.
+pub(super) fn message(body: &[u8]) -> Incoming {
     let value: Value = match serde_json::from_slice(body) {
         Ok(value) => value,
         Err(fault) => return Incoming::Faulty(Id::Null, error(ErrorCodes::ParseError, fault.to_string())),

@@ -5,10 +5,12 @@ mod calibration;
 pub(super) mod comparison;
 mod estimators;
 mod families;
+#[cfg(feature = "robot")]
 mod faults;
 mod latency;
 mod near_misses;
 mod pareto;
+#[cfg(feature = "robot")]
 mod replay;
 pub(super) mod results;
 mod stop;
@@ -24,10 +26,12 @@ pub use calibration::{held_out_table, measured_table};
 pub use comparison::comparison_tables;
 pub use estimators::estimators_tables;
 pub use families::families_table;
+#[cfg(feature = "robot")]
 pub use faults::faults_table;
 pub use latency::latency_table;
 pub use near_misses::near_miss_table;
 pub use pareto::pareto_table;
+#[cfg(feature = "robot")]
 pub use replay::replay_tables;
 pub use results::results_table;
 pub use stop::{difference_tables, stop_tables};

@@ -6,19 +6,19 @@ use std::sync::Arc;
 use vibrissa_runtime::machine::Program;
 
 use super::message::ParameterInfo;
-use vibrissa_lab::inspect::Breakpoints;
+use crate::inspect::Breakpoints;
 use vibrissa_language::explain::Threshold;
 
 /// The values that may be changed.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Changeable {
+pub struct Changeable {
     /// The thresholds by their names.
     thresholds: BTreeMap<String, Threshold>,
 }
 
 impl Changeable {
     /// The values of a program that may be changed, with what a page shows of them. `number` gives the number of a threshold's guard.
-    pub(super) fn new(
+    pub fn new(
         program: &Program,
         thresholds: Vec<Threshold>,
         number: impl Fn(&Threshold) -> Option<usize>,
@@ -61,7 +61,7 @@ impl Changeable {
     ///
     /// # Errors
     /// What is wrong with a value, for people.
-    pub(super) fn apply(
+    pub fn apply(
         &self,
         program: &Program,
         policy: Option<&Breakpoints>,

@@ -8,11 +8,11 @@ use vibrissa_runtime::signal::{Command, Sample};
 
 use super::guards::GuardNumbers;
 use super::message::GuardFrame;
-use vibrissa_lab::inspect::{BreakpointTick, BreakpointWatch, Breakpoints};
+use crate::inspect::{BreakpointTick, BreakpointWatch, Breakpoints};
 
 /// A control loop with the same samples as that of the run. If the policy has a text, its program explains the guards.
 #[derive(Debug, Clone)]
-pub(super) struct Shadow {
+pub struct Shadow {
     control: Control,
     policy: Option<Arc<Breakpoints>>,
     watch: BreakpointWatch,
@@ -49,12 +49,13 @@ impl Observer for Observed {
 
 impl Shadow {
     /// A loop at the start of a run. `control` has the program of the explained policy, if there is one.
-    pub(super) fn new(control: Control, policy: Option<Arc<Breakpoints>>) -> Self {
+    #[must_use]
+    pub fn new(control: Control, policy: Option<Arc<Breakpoints>>) -> Self {
         Self { control, policy, watch: BreakpointWatch::default(), observed: Observed::default(), ticks: 0 }
     }
 
     /// Executes a tick. The result is the text of the breakpoint that it hits.
-    pub(super) fn tick(&mut self, samples: &[Sample]) -> (Command, Option<String>) {
+    pub fn tick(&mut self, samples: &[Sample]) -> (Command, Option<String>) {
         self.observed.tried.clear();
         self.observed.taken.clear();
         let (command, _) = self.control.tick_observed(samples, &mut self.observed);
@@ -71,23 +72,27 @@ impl Shadow {
     }
 
     /// True after the machine has failed or succeeded.
-    pub(super) fn has_ended(&self) -> bool {
+    #[must_use]
+    pub fn has_ended(&self) -> bool {
         let machine = self.control.machine();
         machine.failure().is_some() || machine.success().is_some()
     }
 
     /// The explained policy, if it has a text.
-    pub(super) fn policy(&self) -> Option<&Breakpoints> {
+    #[must_use]
+    pub fn policy(&self) -> Option<&Breakpoints> {
         self.policy.as_deref()
     }
 
     /// The control loop.
-    pub(super) fn control(&self) -> &Control {
+    #[must_use]
+    pub fn control(&self) -> &Control {
         &self.control
     }
 
     /// The guards of the newest tick.
-    pub(super) fn guards(&self, numbers: &GuardNumbers) -> Vec<GuardFrame> {
+    #[must_use]
+    pub fn guards(&self, numbers: &GuardNumbers) -> Vec<GuardFrame> {
         let Some(policy) = &self.policy else { return Vec::new() };
         let frame = |&(id, standing): &(TransitionId, Standing)| {
             let (guard, transition) = (numbers.number(id)?, policy.explained.transition(id)?);
@@ -108,7 +113,8 @@ impl Shadow {
     }
 
     /// The numbers of the guards of the transitions that the newest tick has taken.
-    pub(super) fn taken(&self, numbers: &GuardNumbers) -> Vec<usize> {
+    #[must_use]
+    pub fn taken(&self, numbers: &GuardNumbers) -> Vec<usize> {
         self.observed.taken.iter().filter_map(|&id| numbers.number(id)).collect()
     }
 }

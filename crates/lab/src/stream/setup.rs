@@ -5,7 +5,7 @@ use std::sync::Arc;
 use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::rig::Rig;
 
-use vibrissa_lab::trial::Trial;
+use crate::trial::Trial;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_world::geometry::Pose;
 use vibrissa_world::scene::Scene;
@@ -14,31 +14,31 @@ use vibrissa_world::scene::Scene;
 #[derive(Debug)]
 pub struct RunSetup {
     /// The command: `run`, `replay` or `drive`.
-    pub(super) command: &'static str,
+    pub command: &'static str,
     /// Name of the scenario.
-    pub(super) scenario: String,
+    pub scenario: String,
     /// Name of the simulator. `None` if it is not known.
-    pub(super) world: Option<String>,
+    pub world: Option<String>,
     /// Longest duration (s). `None` if it is not known.
-    pub(super) duration: Option<f64>,
+    pub duration: Option<f64>,
     /// Number of ticks, if all are known from the beginning.
-    pub(super) known_ticks: Option<usize>,
+    pub known_ticks: Option<usize>,
     /// The rig that control assumes.
-    pub(super) rig: Rig,
+    pub rig: Rig,
     /// The scene, if it is known.
-    pub(super) scene: Option<Scene>,
+    pub scene: Option<Scene>,
     /// The pose of the platform before the first tick, if it is known.
-    pub(super) start: Option<Pose>,
+    pub start: Option<Pose>,
     /// The trial, if its world can be simulated again.
-    pub(super) trial: Option<Trial>,
+    pub trial: Option<Trial>,
     /// The program of the run.
-    pub(super) program: Arc<Program>,
+    pub program: Arc<Program>,
     /// The text of the policy, if there is one.
-    pub(super) policy: Option<Source>,
+    pub policy: Option<Source>,
     /// Why there are no guards, if there are none.
-    pub(super) no_guards: Option<String>,
+    pub no_guards: Option<String>,
     /// True if the times of the loop are emulated.
-    pub(super) is_emulated: bool,
+    pub is_emulated: bool,
 }
 
 impl RunSetup {

@@ -8,12 +8,12 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 /// The name of the protocol.
-pub(super) const PROTOCOL: &str = "vibrissa.live.v1";
+pub const PROTOCOL: &str = "vibrissa.live.v1";
 
 /// A message to the page.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
-pub(super) enum ServerMessage {
+pub enum ServerMessage {
     /// The first message of a connection and of each run.
     Hello(Arc<Hello>),
     /// New ticks.
@@ -35,395 +35,406 @@ pub(super) enum ServerMessage {
 
 /// Everything that stays the same during a run.
 #[derive(Debug, Clone, Default, Serialize)]
-pub(super) struct Hello {
+pub struct Hello {
     /// The protocol.
-    pub(super) protocol: &'static str,
+    pub protocol: &'static str,
     /// Version of the program.
-    pub(super) version: &'static str,
+    pub version: &'static str,
     /// Number of the run since the program was started, from 1. A page forgets the ticks of earlier runs.
-    pub(super) run: u64,
+    pub run: u64,
     /// The command: `run`, `replay` or `drive`.
-    pub(super) command: &'static str,
+    pub command: &'static str,
     /// Name of the scenario.
-    pub(super) scenario: String,
+    pub scenario: String,
     /// Name of the policy.
-    pub(super) policy: String,
+    pub policy: String,
     /// Simulator. `None` if it is not known.
-    pub(super) world: Option<String>,
+    pub world: Option<String>,
     /// Longest duration of the run (s). `None` if it is not known.
-    pub(super) duration: Option<f64>,
+    pub duration: Option<f64>,
     /// Number of ticks, if all are known from the beginning.
-    pub(super) known_ticks: Option<usize>,
+    pub known_ticks: Option<usize>,
     /// Control period (s).
-    pub(super) control_period: f64,
+    pub control_period: f64,
     /// Sample period (s).
-    pub(super) dt: f64,
+    pub dt: f64,
     /// What the page may ask for.
-    pub(super) capabilities: Capabilities,
+    pub capabilities: Capabilities,
     /// The whiskers that the policy binds, in its order.
-    pub(super) whiskers: Vec<String>,
+    pub whiskers: Vec<String>,
     /// The guards.
-    pub(super) guards: Vec<GuardInfo>,
+    pub guards: Vec<GuardInfo>,
     /// Why there are no guards, if there are none.
-    pub(super) no_guards: Option<String>,
+    pub no_guards: Option<String>,
     /// The statechart.
-    pub(super) chart: ChartInfo,
+    pub chart: ChartInfo,
     /// The values that a counterfactual may change: parameters of the policy, then thresholds of guards.
-    pub(super) parameters: Vec<ParameterInfo>,
+    pub parameters: Vec<ParameterInfo>,
     /// The outlines of the objects in the world frame (m). `None` if the scene is not known.
-    pub(super) scene: Option<Vec<Outline>>,
+    pub scene: Option<Vec<Outline>>,
     /// The rig.
-    pub(super) rig: RigInfo,
+    pub rig: RigInfo,
     /// Position (m) and heading (rad) of the platform before the first tick. `None` if they are not known.
-    pub(super) start: Option<[f64; 3]>,
+    pub start: Option<[f64; 3]>,
     /// The plots of the policy.
-    pub(super) plots: Vec<PlotInfo>,
+    pub plots: Vec<PlotInfo>,
     /// The breakpoints.
-    pub(super) breakpoints: Vec<BreakpointInfo>,
+    pub breakpoints: Vec<BreakpointInfo>,
 }
 
 /// What the page may ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[expect(clippy::struct_excessive_bools, reason = "a page may ask for each of them alone")]
-pub(super) struct Capabilities {
+pub struct Capabilities {
     /// `pause`, `run` and `step`.
-    pub(super) step: bool,
+    pub step: bool,
     /// `break`.
-    pub(super) breakpoints: bool,
+    pub breakpoints: bool,
     /// `counterfactual` over recorded perception.
-    pub(super) counterfactual: bool,
+    pub counterfactual: bool,
     /// `counterfactual` in closed loop.
-    pub(super) closed_loop: bool,
+    pub closed_loop: bool,
 }
 
 /// A guard. Its index is its place in [`Hello::guards`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct GuardInfo {
+pub struct GuardInfo {
     /// The same index.
-    pub(super) index: usize,
+    pub index: usize,
     /// The state to which it belongs. `None` for a global transition.
-    pub(super) state: Option<usize>,
+    pub state: Option<usize>,
     /// Name of the target: a state, `exit` and a name, `Success` or `Failure`.
-    pub(super) target: String,
+    pub target: String,
     /// The guard, as in the policy.
-    pub(super) text: String,
+    pub text: String,
     /// The file that contains it. `None` for the policy itself.
-    pub(super) file: Option<String>,
+    pub file: Option<String>,
     /// Its line in that file, from 1.
-    pub(super) line: usize,
+    pub line: usize,
     /// The parts of its condition in the order of the text. None for `after`.
-    pub(super) parts: Vec<PartInfo>,
+    pub parts: Vec<PartInfo>,
 }
 
 /// A part of a condition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct PartInfo {
+pub struct PartInfo {
     /// The part, as in the policy. It says what has to hold.
-    pub(super) text: String,
+    pub text: String,
     /// Unit of its margin. `None` for a bool.
-    pub(super) unit: Option<String>,
+    pub unit: Option<String>,
 }
 
 /// The statechart.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub(super) struct ChartInfo {
+pub struct ChartInfo {
     /// The states. An outer state comes before its inner states.
-    pub(super) states: Vec<StateInfo>,
+    pub states: Vec<StateInfo>,
     /// The transitions.
-    pub(super) transitions: Vec<TransitionInfo>,
+    pub transitions: Vec<TransitionInfo>,
+}
+
+impl ChartInfo {
+    /// The active states from the outermost to the innermost. None without one.
+    #[must_use]
+    pub fn path(&self, innermost: Option<usize>) -> Vec<usize> {
+        let parent = |state: &usize| self.states.get(*state)?.parent;
+        let mut path: Vec<usize> = std::iter::successors(innermost, parent).collect();
+        path.reverse();
+        path
+    }
 }
 
 /// A state. Its index is its place in [`ChartInfo::states`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct StateInfo {
+pub struct StateInfo {
     /// Its name.
-    pub(super) name: String,
+    pub name: String,
     /// The state that contains it.
-    pub(super) parent: Option<usize>,
+    pub parent: Option<usize>,
     /// True if it is the initial state of the machine or of the state that contains it.
-    pub(super) initial: bool,
+    pub initial: bool,
     /// The behaviour that is its content, with its arguments.
-    pub(super) behaviour: Option<String>,
+    pub behaviour: Option<String>,
 }
 
 /// A transition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct TransitionInfo {
+pub struct TransitionInfo {
     /// The state to which it belongs. `None` for every state.
-    pub(super) state: Option<usize>,
+    pub state: Option<usize>,
     /// The state that it enters. `None` for an end of the run.
-    pub(super) target: Option<usize>,
+    pub target: Option<usize>,
     /// `success` or `failure` for an end of the run.
-    pub(super) end: Option<&'static str>,
+    pub end: Option<&'static str>,
     /// Index of its guard. `None` for a fallback transition, and if there are no guards.
-    pub(super) guard: Option<usize>,
+    pub guard: Option<usize>,
     /// The guard for people.
-    pub(super) text: String,
+    pub text: String,
 }
 
 /// A value that a counterfactual may change.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct ParameterInfo {
+pub struct ParameterInfo {
     /// The key in [`PageMessage::Counterfactual`].
-    pub(super) name: String,
+    pub name: String,
     /// Its value in the run (SI). For a choice, its number.
-    pub(super) value: f64,
+    pub value: f64,
     /// Its SI unit. Empty for a number.
-    pub(super) unit: String,
+    pub unit: String,
     /// The least value allowed.
-    pub(super) low: Option<f64>,
+    pub low: Option<f64>,
     /// The greatest value allowed.
-    pub(super) high: Option<f64>,
+    pub high: Option<f64>,
     /// The names of the values 0, 1, 2 and so on. Empty for a number.
-    pub(super) choices: Vec<String>,
+    pub choices: Vec<String>,
     /// What it means.
-    pub(super) meaning: String,
+    pub meaning: String,
     /// The guard whose threshold it is. `None` for a parameter of the policy.
-    pub(super) guard: Option<usize>,
+    pub guard: Option<usize>,
 }
 
 /// A plot of the policy.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(super) struct PlotInfo {
+pub struct PlotInfo {
     /// Its name.
-    pub(super) name: String,
+    pub name: String,
     /// The SI unit of its values. Empty for a number, and if there are choices.
-    pub(super) unit: String,
+    pub unit: String,
     /// The names of the values 0, 1, 2 and so on. Empty for a quantity.
-    pub(super) choices: Vec<String>,
+    pub choices: Vec<String>,
 }
 
 /// An outline.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Outline {
+pub struct Outline {
     /// Its points (m).
-    pub(super) points: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 2]>,
     /// True if the last point is joined to the first one.
-    pub(super) closed: bool,
+    pub closed: bool,
 }
 
 /// The rig, in the frame of the body: the origin is the centre of mass, the first axis points forward, the second one to the left.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub(super) struct RigInfo {
+pub struct RigInfo {
     /// The corners of the platform (m).
-    pub(super) platform: Vec<[f64; 2]>,
+    pub platform: Vec<[f64; 2]>,
     /// The whiskers in the order of [`Hello::whiskers`].
-    pub(super) whiskers: Vec<WhiskerInfo>,
+    pub whiskers: Vec<WhiskerInfo>,
 }
 
 /// A whisker of the rig.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct WhiskerInfo {
+pub struct WhiskerInfo {
     /// Its base (m).
-    pub(super) base: [f64; 2],
+    pub base: [f64; 2],
     /// Direction of the undeflected shaft (rad).
-    pub(super) direction: f64,
+    pub direction: f64,
     /// Length (m).
-    pub(super) length: f64,
+    pub length: f64,
     /// Base angle (rad) above which perception regards it as touching.
-    pub(super) threshold: f64,
+    pub threshold: f64,
 }
 
 /// A breakpoint.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(super) struct BreakpointInfo {
+pub struct BreakpointInfo {
     /// The name of a state, or a condition.
-    pub(super) text: String,
+    pub text: String,
     /// The state, if it is one.
-    pub(super) state: Option<usize>,
+    pub state: Option<usize>,
 }
 
 /// New ticks.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Ticks {
+pub struct Ticks {
     /// Number of ticks that this connection has missed since its last `ticks`. `range` gets them.
-    pub(super) lost: usize,
+    pub lost: usize,
     /// The ticks, oldest first.
-    pub(super) frames: Vec<Arc<Frame>>,
+    pub frames: Vec<Arc<Frame>>,
 }
 
 /// A tick.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Frame {
+pub struct Frame {
     /// Its index.
-    pub(super) tick: usize,
+    pub tick: usize,
     /// Time since the start of the run (s).
-    pub(super) time: f64,
+    pub time: f64,
     /// The active states from the outermost to the innermost. Empty after the end of the machine.
-    pub(super) states: Vec<usize>,
+    pub states: Vec<usize>,
     /// Position of the platform's centre of mass (m) and its heading (rad).
-    pub(super) pose: [f64; 3],
+    pub pose: [f64; 3],
     /// The whiskers in the order of [`Hello::whiskers`].
-    pub(super) whiskers: Vec<WhiskerFrame>,
+    pub whiskers: Vec<WhiskerFrame>,
     /// The guards that were tried last in this tick. Others were not evaluated.
-    pub(super) guards: Vec<GuardFrame>,
+    pub guards: Vec<GuardFrame>,
     /// The guards of the transitions that were taken, in their order.
-    pub(super) taken: Vec<usize>,
+    pub taken: Vec<usize>,
     /// Commanded velocity of the centre of mass (m/s, world frame) and yaw rate (rad/s).
-    pub(super) command: [f64; 3],
+    pub command: [f64; 3],
     /// The recorded tips since the tick before.
-    pub(super) contour: Vec<ContourFrame>,
+    pub contour: Vec<ContourFrame>,
     /// The contour reconstruction until now.
-    pub(super) metrics: Metrics,
+    pub metrics: Metrics,
     /// The control loop. `None` if its times are not known.
     #[serde(rename = "loop")]
-    pub(super) timing: Option<Timing>,
+    pub timing: Option<Timing>,
     /// The messages that the policy has logged.
-    pub(super) messages: Vec<String>,
+    pub messages: Vec<String>,
     /// The values (SI) of [`Hello::plots`]. `None` for a plot that this tick has not set, or not to a finite number.
-    pub(super) plots: Vec<Option<f64>>,
+    pub plots: Vec<Option<f64>>,
 }
 
 /// A whisker in a tick.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct WhiskerFrame {
+pub struct WhiskerFrame {
     /// Filtered base angle (rad), counter-clockwise positive.
-    pub(super) base_angle: f64,
+    pub base_angle: f64,
     /// True if it is regarded as touching.
-    pub(super) touching: bool,
+    pub touching: bool,
     /// The bent shaft from the base to the tip (m, world frame).
-    pub(super) shaft: Vec<[f64; 2]>,
+    pub shaft: Vec<[f64; 2]>,
     /// Estimated tip (m, world frame).
-    pub(super) tip: Option<[f64; 2]>,
+    pub tip: Option<[f64; 2]>,
 }
 
 /// A guard in a tick.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct GuardFrame {
+pub struct GuardFrame {
     /// Its index.
-    pub(super) guard: usize,
+    pub guard: usize,
     /// True if its condition holds. True for `after`.
-    pub(super) met: bool,
+    pub met: bool,
     /// For each part the distance from the value where it changes, in the unit of the part. It is positive if the part holds, and
     /// negative by the amount that is missing. `None` for a bool.
-    pub(super) margins: Vec<Option<f64>>,
+    pub margins: Vec<Option<f64>>,
     /// The parts that have to change, so that the condition holds.
-    pub(super) missing: Vec<usize>,
+    pub missing: Vec<usize>,
     /// For a guard with a time, the time (s) since its condition holds or its state was entered.
-    pub(super) elapsed: Option<f64>,
+    pub elapsed: Option<f64>,
     /// The time (s) that is needed.
-    pub(super) needed: Option<f64>,
+    pub needed: Option<f64>,
 }
 
 /// A recorded tip.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct ContourFrame {
+pub struct ContourFrame {
     /// Index of the whisker.
-    pub(super) whisker: usize,
+    pub whisker: usize,
     /// Its position (m, world frame).
-    pub(super) point: [f64; 2],
+    pub point: [f64; 2],
     /// Its standard deviation (m).
-    pub(super) spread: Option<f64>,
+    pub spread: Option<f64>,
     /// Its distance from the nearest outline (m). `None` if the scene is not known.
-    pub(super) error: Option<f64>,
+    pub error: Option<f64>,
 }
 
 /// Figures of the contour until a tick. Each is `None` if it is not known.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub(super) struct Metrics {
+pub struct Metrics {
     /// Mean distance of the recorded tips from the nearest outline (m).
-    pub(super) error: Option<f64>,
+    pub error: Option<f64>,
     /// Share of the reference that was traced, 0 to 1.
-    pub(super) coverage: Option<f64>,
+    pub coverage: Option<f64>,
     /// Mean standard deviation of the recorded tips (m).
-    pub(super) spread: Option<f64>,
+    pub spread: Option<f64>,
 }
 
 /// Times of the control loop in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct Timing {
+pub struct Timing {
     /// Wall time since the tick before (s). `None` in the first tick and after a pause, which is no control period.
-    pub(super) period: Option<f64>,
+    pub period: Option<f64>,
     /// Wall time of perception, machine and motion (s).
-    pub(super) used: f64,
+    pub used: f64,
     /// True if they took longer than the control period.
-    pub(super) overload: bool,
+    pub overload: bool,
 }
 
 /// What the run does.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub(super) struct Status {
+pub struct Status {
     /// `running`, `paused` or `finished`.
-    pub(super) state: &'static str,
+    pub state: &'static str,
     /// Why it is paused: `page`, `start` or `breakpoint`. Or the reason of the outcome.
-    pub(super) reason: Option<String>,
+    pub reason: Option<String>,
     /// The breakpoint at which it is paused.
-    pub(super) breakpoint: Option<String>,
+    pub breakpoint: Option<String>,
     /// The outcome: `completed`, `timeout`, `failed` or `diverged`.
-    pub(super) verdict: Option<String>,
+    pub verdict: Option<String>,
     /// The figures of the whole contour, after the end of the run.
-    pub(super) metrics: Option<Metrics>,
+    pub metrics: Option<Metrics>,
     /// Number of ticks until now.
-    pub(super) ticks: usize,
+    pub ticks: usize,
     /// The program keeps every tick whose index is a multiple of this, and the newest ones.
-    pub(super) kept_every: usize,
+    pub kept_every: usize,
     /// The breakpoints.
-    pub(super) breakpoints: Vec<BreakpointInfo>,
+    pub breakpoints: Vec<BreakpointInfo>,
 }
 
 /// Ticks of the past.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct History {
+pub struct History {
     /// The first tick that was asked for.
-    pub(super) from: usize,
+    pub from: usize,
     /// The tick after the last one.
-    pub(super) to: usize,
+    pub to: usize,
     /// The kept ticks among them, at most as many as were asked for. Recorded tips of other ticks are in the next kept tick, and so
     /// are plots that it has not set itself.
-    pub(super) frames: Vec<Arc<Frame>>,
+    pub frames: Vec<Arc<Frame>>,
 }
 
 /// A piece of a counterfactual.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Piece {
+pub struct Piece {
     /// The number that the page has given it.
-    pub(super) id: u64,
+    pub id: u64,
     /// The kind.
-    pub(super) kind: CounterfactualKind,
+    pub kind: CounterfactualKind,
     /// The ticks, oldest first.
-    pub(super) frames: Vec<CounterfactualFrame>,
+    pub frames: Vec<CounterfactualFrame>,
     /// The first tick in which the states differ from those of the run. Until there is one, the first tick in which the commands do.
-    pub(super) first_difference: Option<FirstDifference>,
+    pub first_difference: Option<FirstDifference>,
     /// True for the last piece.
-    pub(super) done: bool,
+    pub done: bool,
     /// Why it ended: `end of the run`, `canceled`, or the outcome in closed loop. Only in the last piece.
-    pub(super) end: Option<String>,
+    pub end: Option<String>,
 }
 
 /// A tick of a counterfactual.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct CounterfactualFrame {
+pub struct CounterfactualFrame {
     /// Its index.
-    pub(super) tick: usize,
+    pub tick: usize,
     /// Time since the start of the run (s).
-    pub(super) time: f64,
+    pub time: f64,
     /// The active states. Empty after the end of the machine.
-    pub(super) states: Vec<usize>,
+    pub states: Vec<usize>,
     /// The pose, in closed loop.
-    pub(super) pose: Option<[f64; 3]>,
+    pub pose: Option<[f64; 3]>,
     /// The recorded tips, in closed loop.
-    pub(super) contour: Vec<[f64; 2]>,
+    pub contour: Vec<[f64; 2]>,
 }
 
 /// The first tick in which a counterfactual differs from the run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct FirstDifference {
+pub struct FirstDifference {
     /// Its index.
-    pub(super) tick: usize,
+    pub tick: usize,
     /// Its time (s).
-    pub(super) time: f64,
+    pub time: f64,
     /// True if the active states differ. False if only the commands do.
-    pub(super) states_differ: bool,
+    pub states_differ: bool,
     /// What the run did: the guard of the transition that it took, or `stays in` and its state.
-    pub(super) before: String,
+    pub before: String,
     /// What the changed policy does.
-    pub(super) after: String,
+    pub after: String,
 }
 
 /// The kind of a counterfactual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum CounterfactualKind {
+pub enum CounterfactualKind {
     /// The changed policy has the recorded samples, and its commands move nothing.
     Recorded,
     /// The changed policy steers the platform in a simulation.
@@ -433,7 +444,7 @@ pub(super) enum CounterfactualKind {
 /// A message from the page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum PageMessage {
+pub enum PageMessage {
     /// Pauses the run.
     Pause,
     /// Continues the run.

@@ -2,11 +2,11 @@
 
 use vibrissa_runtime::machine::TransitionId;
 
-use vibrissa_lab::inspect::{Breakpoint, Breakpoints};
+use crate::inspect::{Breakpoint, Breakpoints};
 
 /// Gives each guard of a policy a number: global ones first, then those of every state. Guards of breakpoints have none.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct GuardNumbers {
+pub struct GuardNumbers {
     /// Number of global transitions.
     always: usize,
     /// For each state, the number of its first guard, and the number of its guards.
@@ -15,7 +15,8 @@ pub(super) struct GuardNumbers {
 
 impl GuardNumbers {
     /// The numbers for a policy.
-    pub(super) fn new(policy: &Breakpoints) -> Self {
+    #[must_use]
+    pub fn new(policy: &Breakpoints) -> Self {
         // The conditions of breakpoints are global guards after those of the policy.
         let is_condition = |breakpoint: &&Breakpoint| breakpoint.state().is_none() && breakpoint.transition().is_none();
         let conditions = policy.breakpoints.iter().filter(is_condition).count();
@@ -30,7 +31,7 @@ impl GuardNumbers {
     }
 
     /// All transitions, in the order of their numbers.
-    pub(super) fn transitions(&self) -> impl Iterator<Item = TransitionId> {
+    pub fn transitions(&self) -> impl Iterator<Item = TransitionId> {
         let of_states =
             self.states.iter().enumerate().flat_map(|(state, &(_, count))| {
                 (0..count).map(move |index| TransitionId { state: Some(state), index })
@@ -39,7 +40,8 @@ impl GuardNumbers {
     }
 
     /// The number of a guard.
-    pub(super) fn number(&self, id: TransitionId) -> Option<usize> {
+    #[must_use]
+    pub fn number(&self, id: TransitionId) -> Option<usize> {
         match id.state {
             None => (id.index < self.always).then_some(id.index),
             Some(state) => {

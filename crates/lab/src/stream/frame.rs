@@ -3,12 +3,11 @@
 use vibrissa_runtime::rig::Rig;
 
 use super::guards::GuardNumbers;
-use super::log::RunLog;
-use super::message::{ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
+use super::message::{ChartInfo, ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
 use super::shadow::Shadow;
-use vibrissa_lab::recording::shaft_points;
-use vibrissa_lab::run::{PlotRecord, TickRecord, Trace};
-use vibrissa_lab::score::CoverageTracker;
+use super::shape::shaft_points;
+use crate::run::{PlotRecord, TickRecord, Trace};
+use crate::score::CoverageTracker;
 use vibrissa_world::geometry::{Point2, Pose, unit};
 use vibrissa_world::scene::Truth;
 
@@ -17,7 +16,7 @@ const RESOLUTION: f64 = 1e-6;
 
 /// Makes the frames of a run.
 #[derive(Debug)]
-pub(super) struct Frames {
+pub struct Frames {
     rig: Rig,
     /// For each whisker of the trace, its index in the rig.
     bound: Vec<usize>,
@@ -31,16 +30,17 @@ pub(super) struct Frames {
 
 impl Frames {
     /// The frames of a run of `rig`, whose trace has the whiskers `bound`. `truth` is the exact scene, if it is known.
-    pub(super) fn new(rig: Rig, bound: Vec<usize>, truth: Option<Truth>) -> Self {
+    #[must_use]
+    pub fn new(rig: Rig, bound: Vec<usize>, truth: Option<Truth>) -> Self {
         let coverage = truth.as_ref().map(|truth| CoverageTracker::new(truth.reference.clone()));
         Self { rig, bound, truth, errors: (0.0, 0), spreads: (0.0, 0), coverage }
     }
 
     /// The frame of the newest tick of a trace. `None` if it has none.
-    pub(super) fn frame(
+    pub fn frame(
         &mut self,
         trace: &Trace,
-        (shadow, numbers, log): (&Shadow, &GuardNumbers, &RunLog),
+        (shadow, numbers, chart): (&Shadow, &GuardNumbers, &ChartInfo),
         timing: Option<Timing>,
     ) -> Option<Frame> {
         let tick = trace.ticks.last()?;
@@ -56,7 +56,7 @@ impl Frames {
         Some(Frame {
             tick: index,
             time: tick.time,
-            states: log.path(tick.state),
+            states: chart.path(tick.state),
             pose: drawn_pose(&tick.body),
             whiskers: self.whiskers(tick),
             guards: shadow.guards(numbers),
@@ -71,7 +71,8 @@ impl Frames {
     }
 
     /// The figures of the contour until now.
-    pub(super) fn metrics(&self) -> Metrics {
+    #[must_use]
+    pub fn metrics(&self) -> Metrics {
         let mean = |(sum, count): (f64, usize)| (count > 0).then(|| sum / count as f64);
         let coverage = self.coverage.as_ref().map(CoverageTracker::coverage);
         Metrics { error: mean(self.errors), coverage, spread: mean(self.spreads) }
@@ -124,11 +125,13 @@ fn point(point: Point2) -> [f64; 2] {
 }
 
 /// A pose (m, rad) for a picture.
-pub(super) fn drawn_pose(pose: &Pose) -> [f64; 3] {
+#[must_use]
+pub fn drawn_pose(pose: &Pose) -> [f64; 3] {
     [rounded(pose.position.x), rounded(pose.position.y), pose.heading]
 }
 
 /// A coordinate (m) for a picture.
-pub(super) fn rounded(coordinate: f64) -> f64 {
+#[must_use]
+pub fn rounded(coordinate: f64) -> f64 {
     (coordinate / RESOLUTION).round() * RESOLUTION
 }

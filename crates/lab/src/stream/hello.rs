@@ -13,15 +13,15 @@ use super::message::{
     StateInfo, TransitionInfo, WhiskerInfo,
 };
 use super::setup::RunSetup;
-use vibrissa_lab::inspect::{Breakpoint, Breakpoints};
-use vibrissa_lab::recording::outline_points;
+use super::shape::outline_points;
+use crate::inspect::{Breakpoint, Breakpoints};
 use vibrissa_language::explain::{Explained, Judged};
 use vibrissa_world::geometry::Contour;
 use vibrissa_world::scene::Scene;
 
 /// The first message of a run under `program`, the numbers of its guards and the values that may be changed. `policy` is the
 /// explained policy, if it has a text, and `bound` are the whiskers that it binds, by their indices in the rig.
-pub(super) fn hello(
+pub fn hello(
     setup: &RunSetup,
     program: &Program,
     policy: Option<&Breakpoints>,
@@ -66,7 +66,8 @@ pub(super) fn hello(
 }
 
 /// The breakpoints of a policy.
-pub(super) fn breakpoints(policy: &Breakpoints) -> Vec<BreakpointInfo> {
+#[must_use]
+pub fn breakpoints(policy: &Breakpoints) -> Vec<BreakpointInfo> {
     let info = |breakpoint: &Breakpoint| BreakpointInfo { text: breakpoint.text.clone(), state: breakpoint.state() };
     policy.breakpoints.iter().map(info).collect()
 }

@@ -1,0 +1,12 @@
+//! The playground's machine: texts in, frames and figures out.
+//!
+//! The page holds it as WebAssembly in a worker. Both sides exchange JSON texts in the memory of the module, so that neither needs
+//! generated code. [`Playground::answer`] is the whole interface, and `export` the doors to it.
+
+mod export;
+mod lessons;
+mod playground;
+mod request;
+mod simulation;
+
+pub use playground::Playground;

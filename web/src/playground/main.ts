@@ -1,0 +1,6 @@
+import { Playground } from "./playground.ts";
+
+const root = document.getElementById("playground");
+if (root) {
+  new Playground(root);
+}

@@ -1,0 +1,75 @@
+import type { PageMessage, ServerMessage } from "../live/protocol.ts";
+
+/** A text of the program: a scenario or a policy. */
+export interface BuiltIn {
+  name: string;
+  text: string;
+}
+
+/** A step that teaches the language, as `crates/playground/src/lessons.rs` defines it. */
+export interface Lesson {
+  title: string;
+  text: string;
+  task: string;
+  scene: string;
+  policy: string;
+  solution: string;
+  outcomes: string[];
+  bounds: { figure: string; least?: number; most?: number }[];
+}
+
+/** What the program contains. */
+export interface Catalog {
+  version: string;
+  scenarios: BuiltIn[];
+  policies: BuiltIn[];
+  lessons: Lesson[];
+  /** The words of the language by the scopes in which editors show them. */
+  words: Record<string, string[]>;
+}
+
+/** The figures of a run that the page compares, by the keys of the JSON document of `run`. */
+export interface Result {
+  outcome: string;
+  violations: string[];
+  reason: string | null;
+  policy: string;
+  [key: string]: unknown;
+}
+
+/** A run that is to begin. */
+export interface Start {
+  scenario: string;
+  policy: string;
+  /** Other values (SI) of parameters. */
+  set: Record<string, number>;
+}
+
+/** A message from the page to its worker. */
+export type ToWorker =
+  | { type: "start"; start: Start; speed: number }
+  | { type: "stop" }
+  | { type: "speed"; speed: number }
+  | { type: "live"; message: PageMessage }
+  | { type: "language"; message: unknown }
+  | { type: "compare"; scenario: string };
+
+/** A message from the worker to its page. */
+export type FromWorker =
+  | { type: "ready"; catalog: Catalog }
+  | { type: "live"; message: ServerMessage }
+  | { type: "language"; messages: LanguageMessage[] }
+  | { type: "refused"; error: string }
+  | { type: "scored"; result: Result; picture: string; realtime: number }
+  | { type: "compared"; scenario: string; policy: string; result: Result | undefined }
+  | { type: "alive" }
+  | { type: "broken"; error: string };
+
+/** A message of the Language Server Protocol. */
+export interface LanguageMessage {
+  id?: number;
+  method?: string;
+  params?: unknown;
+  result?: unknown;
+  error?: { message: string };
+}

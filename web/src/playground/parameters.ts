@@ -1,0 +1,61 @@
+import { ParameterField } from "../live/parameter-field.ts";
+import type { ParameterInfo } from "../live/protocol.ts";
+import { button } from "../shared/button.ts";
+import { element } from "../shared/element.ts";
+
+/** The parameters of the policy as sliders. */
+export class Parameters {
+  readonly element = element("section", "parameters");
+  readonly #changed: () => void;
+  readonly #body = element("tbody");
+  #fields: ParameterField[] = [];
+  #known = "";
+
+  /** `changed` is called after a value has changed. */
+  constructor(changed: () => void) {
+    this.#changed = changed;
+    const reset = button("values of the text", () => this.clear(), "restore all values of the text");
+    this.element.append(
+      element("div", "head", element("h2", "", "Parameters"), element("div", "tools", reset)),
+      element("div", "table", element("table", "", this.#body)),
+    );
+    this.element.hidden = true;
+  }
+
+  /** The values (SI) that differ from those of the text. */
+  readonly set: Record<string, number> = {};
+
+  /** Shows the parameters of a run that has begun with the values of `set`. */
+  show(parameters: readonly ParameterInfo[]): void {
+    const known = JSON.stringify(parameters.map((info) => ({ ...info, value: null })));
+    this.element.hidden = parameters.length === 0;
+    if (known === this.#known) {
+      return;
+    }
+    this.#known = known;
+    this.#fields = parameters.map((info) => {
+      const field: ParameterField = new ParameterField(info, () => {
+        this.set[info.name] = field.changed ?? info.value;
+        this.#changed();
+      });
+      return field;
+    });
+    this.#body.replaceChildren(...this.#fields.map(({ row }) => row));
+  }
+
+  /** Restores the values of the text. */
+  clear(): void {
+    const had = Object.keys(this.set);
+    had.forEach((name) => delete this.set[name]);
+    this.#known = "";
+    if (had.length > 0) {
+      this.#changed();
+    }
+  }
+
+  /** Takes the values of a link. */
+  take(values: Record<string, number>): void {
+    this.clear();
+    Object.assign(this.set, values);
+  }
+}

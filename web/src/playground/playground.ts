@@ -1,0 +1,286 @@
+import type { Peer } from "../live/connection.ts";
+import { Page } from "../live/page.ts";
+import type { Hello, ServerMessage } from "../live/protocol.ts";
+import { button } from "../shared/button.ts";
+import { download, fileName } from "../shared/download.ts";
+import { element } from "../shared/element.ts";
+import { Editor, services } from "./editor.ts";
+import { Language } from "./language.ts";
+import { Lessons } from "./lessons.ts";
+import { decode, encode, type Shared } from "./link.ts";
+import type { BuiltIn, Catalog, FromWorker, Result } from "./messages.ts";
+import { Parameters } from "./parameters.ts";
+import { Score } from "./score.ts";
+import { Simulator } from "./simulator.ts";
+import { policySyntax, scenarioSyntax } from "./syntax.ts";
+
+/** The ratios of simulated time to wall time. */
+const SPEEDS: readonly [speed: number, name: string][] = [[1, "real time"], [5, "5 times"], [20, "20 times"], [Infinity, "as fast as possible"]];
+/** The time (ms) after the last change of a text before it is analysed, and of a slider before the run begins again. */
+const PAUSE = 150;
+
+/** The playground: editors, the run, and its score. */
+export class Playground {
+  readonly #root: HTMLElement;
+  readonly #simulator: Simulator;
+  readonly #language: Language;
+  readonly #parameters = new Parameters(() => this.#runSoon());
+  readonly #score = new Score();
+  readonly #scene = element("select");
+  readonly #template = element("select");
+  readonly #speed = element("select");
+  readonly #fault = element("pre", "fault");
+  readonly #notice = element("p", "notice");
+  readonly #problems = element("p", "hint problems");
+  readonly #saves = element("div", "tools");
+  readonly #run: HTMLButtonElement;
+  #lessons: Lessons | undefined;
+  #catalog: Catalog | undefined;
+  #policy: Editor | undefined;
+  #scenario: Editor | undefined;
+  #receive: (message: ServerMessage) => void = () => undefined;
+  #compared = "";
+  #running = { policy: "", scenario: "" };
+  #last: { result: Result; picture: string } | undefined;
+  #timers = new Map<string, number>();
+
+  constructor(root: HTMLElement) {
+    this.#root = root;
+    this.#language = new Language(
+      (message) => this.#simulator.send({ type: "language", message }),
+      (problems, version) => {
+        if (version === this.#language.version) {
+          this.#policy?.show(problems);
+          const errors = problems.filter(({ severity }) => severity === 1).length;
+          this.#problems.textContent = problems.length === 0 ? "no errors, no warnings" : `${count(errors, "error")}, ${count(problems.length - errors, "warning")}`;
+        }
+      },
+    );
+    this.#run = button("run", () => this.#start(), "simulate the policy in the scene (Ctrl+Enter)");
+    this.#simulator = new Simulator((message) => this.#hear(message), (reason) => {
+      this.#tell(reason);
+      this.#language.open(this.#policy?.text ?? "");
+      this.#receive({ type: "status", state: "finished", reason, breakpoint: null, verdict: "stopped", metrics: null, ticks: 0, kept_every: 1, breakpoints: [] });
+    });
+  }
+
+  #hear(message: FromWorker): void {
+    switch (message.type) {
+      case "ready":
+        if (this.#catalog === undefined) {
+          this.#catalog = message.catalog;
+          void this.#build(message.catalog);
+        }
+        break;
+      case "live":
+        if (message.message.type === "hello") {
+          this.#begin(message.message);
+        }
+        this.#receive(message.message);
+        break;
+      case "language": this.#language.receive(message.messages); break;
+      case "refused": this.#fault.textContent = message.error; break;
+      case "scored":
+        this.#last = { result: message.result, picture: message.picture };
+        this.#saves.hidden = false;
+        this.#score.own(message.result, message.realtime);
+        this.#lessons?.check(message.result);
+        this.#compare();
+        break;
+      case "compared":
+        if (message.scenario === this.#compared) {
+          this.#score.other(message.policy, message.result);
+        }
+        break;
+      case "alive":
+      case "broken":
+    }
+  }
+
+  /** Builds the page, as soon as the machine is there. */
+  async #build(catalog: Catalog): Promise<void> {
+    const { scenarios, policies, words } = catalog;
+    const scene = element("div", "stage");
+    const choose = (select: HTMLSelectElement, label: string, names: readonly string[], changed: () => void): HTMLElement => {
+      select.append(...names.map((name, index) => new Option(name, String(index))));
+      select.addEventListener("change", changed);
+      return element("label", "", `${label} `, select);
+    };
+    const scenes = choose(this.#scene, "scene", [...scenarios.map(({ name }) => name), "own"], () => this.#chooseScene());
+    const templates = choose(this.#template, "policy", [...policies.map(({ name }) => name), "own"], () => this.#chooseTemplate());
+    const speeds = choose(this.#speed, "speed", SPEEDS.map(([, name]) => name), () => this.#simulator.send({ type: "speed", speed: this.#pace() }));
+    this.#speed.value = "2";
+    this.#run.className = "primary";
+    const tools = element("div", "tools",
+      this.#run,
+      button("stop", () => this.#simulator.send({ type: "stop" }), "end the run"),
+      button("format", () => void this.#policy?.format(this.#language), "format the policy"),
+      button("copy link", () => void this.#share(), "copy a link that holds policy, scenario and parameters"));
+    this.#saves.append(
+      button("policy", () => this.#save("fsm"), "download the policy"), button("scenario", () => this.#save("yaml"), "download the scenario"),
+      button("result", () => this.#save("json"), "download the result as JSON"), button("picture", () => this.#save("svg"), "download the picture of the run"));
+    this.#saves.hidden = true;
+    this.#saves.prepend(element("span", "hint", "Download:"));
+    this.#fault.setAttribute("role", "alert");
+    this.#notice.setAttribute("role", "status");
+    const policyBox = element("div", "editor");
+    const scenarioBox = element("div", "editor");
+    this.#lessons = new Lessons(catalog.lessons ?? [], (policy, scene) => {
+      this.#load(policy, this.#builtIn(scene));
+      this.#start();
+    });
+    const details = element("details", "", element("summary", "", "Scenario"), scenarioBox);
+    const live = element("div", "live");
+    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#fault, details, this.#parameters.element);
+    const right = element("div", "column", scene, this.#score.element, this.#saves);
+    this.#root.replaceChildren(
+      element("header", "bar", element("p", "brand", "Vibrissa playground"), element("div", "choices", scenes, templates, speeds), tools, this.#notice),
+      element("div", "bench", left, right), live);
+    this.#policy = new Editor(policyBox, "policy", (text) => {
+      if (this.#catalog?.policies[Number(this.#template.value)]?.text !== text) {
+        this.#template.value = String(policies.length);
+      }
+      this.#later("analyse", () => this.#language.change(text));
+    }, [policySyntax(words), ...services(this.#language)]);
+    this.#scenario = new Editor(scenarioBox, "scenario", (text) => {
+      if (this.#catalog?.scenarios[Number(this.#scene.value)]?.text !== text) {
+        this.#scene.value = String(scenarios.length);
+      }
+    }, [scenarioSyntax()]);
+    this.#language.open("");
+    new Page(live, (receive): Peer => {
+      this.#receive = receive;
+      return { send: (message) => this.#simulator.send({ type: "live", message }) };
+    }, scene);
+    addEventListener("keydown", (event) => {
+      if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) {
+        event.preventDefault();
+        this.#start();
+      }
+    }, true);
+    addEventListener("hashchange", () => void this.#openLink());
+    if (!(await this.#openLink())) {
+      this.#load(policies[0]?.text ?? "", scenarios[0]);
+    }
+    this.#start();
+  }
+
+  /** Takes what the link of the page holds. False if it holds nothing. */
+  async #openLink(): Promise<boolean> {
+    if (location.hash === "") {
+      return false;
+    }
+    const shared = await decode(location.hash);
+    if (shared === undefined) {
+      this.#tell("The link holds no policy that this page can read.");
+      return false;
+    }
+    this.#load(shared.policy, { name: "own", text: shared.scenario });
+    this.#parameters.take(shared.set);
+    return true;
+  }
+
+  /** Shows texts. */
+  #load(policy: string, scenario: BuiltIn | undefined): void {
+    if (this.#policy && this.#scenario && this.#catalog) {
+      const place = (texts: readonly BuiltIn[], text: string | undefined): string => {
+        const index = texts.findIndex((known) => known.text === text);
+        return String(index < 0 ? texts.length : index);
+      };
+      this.#template.value = place(this.#catalog.policies, policy);
+      this.#scene.value = place(this.#catalog.scenarios, scenario?.text);
+      this.#parameters.take({});
+      this.#policy.text = policy;
+      this.#scenario.text = scenario?.text ?? "";
+    }
+  }
+
+  #builtIn(name: string): BuiltIn | undefined {
+    return this.#catalog?.scenarios.find((scenario) => scenario.name === name);
+  }
+
+  #chooseScene(): void {
+    const scenario = this.#catalog?.scenarios[Number(this.#scene.value)];
+    if (scenario && this.#scenario) {
+      this.#scenario.text = scenario.text;
+      this.#start();
+    }
+  }
+
+  #chooseTemplate(): void {
+    const policy = this.#catalog?.policies[Number(this.#template.value)];
+    if (policy && this.#policy) {
+      this.#parameters.take({});
+      this.#policy.text = policy.text;
+      this.#start();
+    }
+  }
+
+  #pace(): number {
+    return SPEEDS[Number(this.#speed.value)]?.[0] ?? Infinity;
+  }
+
+  #texts(): Shared {
+    return { policy: this.#policy?.text ?? "", scenario: this.#scenario?.text ?? "", set: { ...this.#parameters.set } };
+  }
+
+  #runSoon(): void {
+    this.#later("run", () => this.#start());
+  }
+
+  #start(): void {
+    const start = this.#texts();
+    this.#running = start;
+    this.#fault.textContent = "";
+    this.#tell("");
+    performance.mark("start");
+    this.#simulator.send({ type: "start", start, speed: this.#pace() });
+  }
+
+  #begin(hello: Hello): void {
+    this.#parameters.show(hello.parameters);
+    if (this.#compared !== this.#running.scenario) {
+      this.#score.clear();
+    }
+  }
+
+  /** Runs the policies of the program in the scene, unless their figures are there already. */
+  #compare(): void {
+    if (this.#compared !== this.#running.scenario) {
+      this.#compared = this.#running.scenario;
+      this.#simulator.send({ type: "compare", scenario: this.#compared });
+    }
+  }
+
+  async #share(): Promise<void> {
+    history.replaceState(null, "", await encode(this.#texts()));
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.#tell("The link is copied. It holds policy, scenario and parameters.");
+    } catch {
+      this.#tell("The link is in the address bar. It holds policy, scenario and parameters.");
+    }
+  }
+
+  #save(extension: "fsm" | "yaml" | "json" | "svg"): void {
+    const { policy, scenario } = this.#texts();
+    const { result, picture } = this.#last ?? {};
+    const contents = { fsm: policy, yaml: scenario, json: JSON.stringify(result, null, 2), svg: picture ?? "" };
+    const types = { fsm: "text/plain", yaml: "text/plain", json: "application/json", svg: "image/svg+xml" };
+    download(fileName(result?.policy ?? "policy", extension), types[extension], contents[extension]);
+  }
+
+  #tell(text: string): void {
+    this.#notice.textContent = text;
+  }
+
+  /** Does something as soon as nothing has changed for a while. */
+  #later(name: string, action: () => void): void {
+    clearTimeout(this.#timers.get(name));
+    this.#timers.set(name, setTimeout(action, PAUSE));
+  }
+}
+
+function count(number: number, noun: string): string {
+  return `${number} ${noun}${number === 1 ? "" : "s"}`;
+}

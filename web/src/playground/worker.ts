@@ -1,0 +1,213 @@
+import type { Frame, Hello, Metrics, PageMessage, Status } from "../live/protocol.ts";
+import { Machine, Refusal } from "./machine.ts";
+import type { Catalog, FromWorker, LanguageMessage, Result, Start, ToWorker } from "./messages.ts";
+
+/** The part of a worker's global scope that is used here. */
+interface Scope {
+  postMessage(message: FromWorker): void;
+  addEventListener(type: "message", listener: (event: MessageEvent<ToWorker>) => void): void;
+}
+const scope = globalThis as unknown as Scope;
+
+/** The time (ms) for which the worker simulates before it looks for messages. */
+const SLICE = 12;
+/** The number of ticks in the first request of a slice. */
+const PORTION = 8;
+
+interface Advanced {
+  frames: Frame[];
+  ticks: number;
+  time: number;
+  has_ended: boolean;
+}
+
+interface Scored {
+  result: Result;
+  picture: string;
+  verdict: string;
+  reason: string | null;
+  metrics: Metrics;
+}
+
+/** The run of the page, and the policies that it is compared with. */
+class Worker {
+  readonly #machine: Machine;
+  readonly #catalog: Catalog;
+  #state: Status["state"] = "finished";
+  #ticks = 0;
+  #speed = Infinity;
+  #time = 0;
+  /** Wall time (ms) at which the pace began, and the simulated time (s) then. */
+  #pace: [number, number] = [0, 0];
+  /** Wall time (ms) that the simulation has taken. */
+  #used = 0;
+  #run = 0;
+  #comparisons: { scenario: string; policy: string; text: string }[] = [];
+
+  constructor(machine: Machine) {
+    this.#machine = machine;
+    this.#catalog = machine.ask<Catalog>({ type: "catalog" });
+    scope.postMessage({ type: "ready", catalog: this.#catalog });
+  }
+
+  receive(message: ToWorker): void {
+    switch (message.type) {
+      case "start": this.#start(message.start, message.speed); break;
+      case "stop": this.#stop(); break;
+      case "speed":
+        this.#speed = message.speed;
+        this.#pace = [performance.now(), this.#time];
+        break;
+      case "live": this.#control(message.message); break;
+      case "language": scope.postMessage({ type: "language", messages: this.#machine.ask<LanguageMessage[]>({ type: "language", message: message.message }) }); break;
+      case "compare": this.#comparisons = this.#catalog.policies.map(({ name, text }) => ({ scenario: message.scenario, policy: name, text }));
+    }
+    this.#schedule();
+  }
+
+  #start({ scenario, policy, set }: Start, speed: number): void {
+    this.#comparisons = [];
+    this.#state = "finished";
+    let hello: Hello;
+    try {
+      hello = this.#machine.ask<Hello>({ type: "start", scenario, policy, set });
+    } catch (fault) {
+      if (!(fault instanceof Refusal)) {
+        throw fault;
+      }
+      scope.postMessage({ type: "refused", error: fault.message });
+      return;
+    }
+    hello.run = this.#run += 1;
+    [this.#state, this.#ticks, this.#time, this.#speed, this.#used] = ["running", 0, 0, speed, 0];
+    this.#pace = [performance.now(), 0];
+    scope.postMessage({ type: "live", message: hello });
+    this.#status();
+    this.#advance(1);
+  }
+
+  #stop(): void {
+    if (this.#state !== "finished") {
+      this.#state = "finished";
+      this.#status({ verdict: "stopped" });
+    }
+  }
+
+  #control(message: PageMessage): void {
+    if (this.#state === "finished") {
+      return;
+    }
+    switch (message.type) {
+      case "pause": this.#state = "paused"; this.#status({ reason: "page" }); break;
+      case "run":
+        this.#state = "running";
+        this.#pace = [performance.now(), this.#time];
+        this.#status();
+        break;
+      case "step":
+        this.#advance(message.ticks);
+        if (this.#state === "paused") {
+          this.#status({ reason: "page" });
+        }
+    }
+  }
+
+  /** Simulates ticks and shows them. */
+  #advance(ticks: number): void {
+    const before = performance.now();
+    const { frames, ticks: count, time, has_ended: hasEnded } = this.#machine.ask<Advanced>({ type: "advance", ticks });
+    [this.#ticks, this.#time] = [count, time];
+    this.#used += performance.now() - before;
+    scope.postMessage({ type: "live", message: { type: "ticks", lost: 0, frames } });
+    if (hasEnded) {
+      const { result, picture, verdict, reason, metrics } = this.#machine.ask<Scored>({ type: "score" });
+      this.#state = "finished";
+      this.#status({ verdict, reason, metrics });
+      scope.postMessage({ type: "scored", result, picture, realtime: (1000 * time) / Math.max(this.#used, 1) });
+    }
+  }
+
+  #status(changed: Partial<Status> = {}): void {
+    scope.postMessage({ type: "live", message: { type: "status", state: this.#state, reason: null, breakpoint: null, verdict: null, metrics: null, ticks: this.#ticks, kept_every: 1, breakpoints: [], ...changed } });
+  }
+
+  /** Goes on with the run, or with a comparison, as soon as all messages are read. */
+  #schedule(): void {
+    if (!this.#isScheduled && (this.#state === "running" || (this.#state === "finished" && this.#comparisons.length > 0))) {
+      this.#isScheduled = true;
+      const isAhead = this.#state === "running" && this.#time > this.#allowed();
+      setTimeout(() => {
+        this.#isScheduled = false;
+        this.#work();
+        this.#schedule();
+      }, isAhead ? 8 : 0);
+    }
+  }
+  #isScheduled = false;
+
+  /** The simulated time (s) that the pace allows. */
+  #allowed(): number {
+    const [since, from] = this.#pace;
+    return from + (this.#speed * (performance.now() - since)) / 1000;
+  }
+
+  #work(): void {
+    const end = performance.now() + SLICE;
+    while (this.#state === "running" && performance.now() < end && this.#time <= this.#allowed()) {
+      this.#advance(this.#speed === Infinity ? PORTION : 1);
+    }
+    if (this.#state === "finished") {
+      this.#compare();
+    }
+    scope.postMessage({ type: "alive" });
+  }
+
+  /** Runs a policy of the program in the scenario of the page. */
+  #compare(): void {
+    const next = this.#comparisons.shift();
+    if (next === undefined) {
+      return;
+    }
+    const { scenario, policy, text } = next;
+    let result: Result | undefined;
+    try {
+      this.#machine.ask({ type: "start", scenario, policy: text });
+      while (!this.#machine.ask<Advanced>({ type: "advance", ticks: 300, frames: false }).has_ended) {
+        scope.postMessage({ type: "alive" });
+      }
+      result = this.#machine.ask<Scored>({ type: "score" }).result;
+    } catch (fault) {
+      if (!(fault instanceof Refusal)) {
+        throw fault;
+      }
+    }
+    scope.postMessage({ type: "compared", scenario, policy, result });
+  }
+}
+
+const waiting: ToWorker[] = [];
+let worker: Worker | undefined;
+
+/** A trap leaves the machine in a state that nobody knows, so the page starts another worker. */
+function guard(work: () => void): void {
+  try {
+    work();
+  } catch (fault) {
+    scope.postMessage({ type: "broken", error: String(fault) });
+  }
+}
+
+scope.addEventListener("message", ({ data }) => {
+  if (worker === undefined) {
+    waiting.push(data);
+  } else {
+    guard(() => worker?.receive(data));
+  }
+});
+Machine.load("vibrissa.wasm").then(
+  (machine) => guard(() => {
+    worker = new Worker(machine);
+    waiting.splice(0).forEach((message) => worker?.receive(message));
+  }),
+  (fault: unknown) => scope.postMessage({ type: "broken", error: String(fault) }),
+);
