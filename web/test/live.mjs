@@ -5,39 +5,13 @@ import { once } from "node:events";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { browser, checkFit, open, tabTo } from "./browser.mjs";
+import { browser, checkFit, open, serve as serveBy, tabTo } from "./browser.mjs";
 
 const [program] = process.argv.slice(2);
 const root = join(import.meta.dirname, "../..");
 const scratch = await mkdtemp(join(tmpdir(), "vibrissa-live-"));
 
-/** Starts the program, gives the address of its page to `use`, and ends it. */
-async function serve(options, use) {
-  const child = spawn(program, options, { cwd: root, stdio: ["ignore", "pipe", "pipe"] });
-  const exit = once(child, "exit");
-  let output = "";
-  const address = new Promise((resolve, reject) => {
-    for (const stream of [child.stdout, child.stderr]) {
-      stream.on("data", (data) => {
-        output += data;
-        const found = /http:\/\/\S+/.exec(output);
-        if (found && /\s/.test(output[found.index + found[0].length] ?? "")) {
-          resolve(found[0]);
-        }
-      });
-    }
-    child.on("exit", () => reject(new Error(`${options.join(" ")} ended: ${output}`)));
-  });
-  try {
-    await use(await address);
-  } catch (error) {
-    console.error(output);
-    throw error;
-  } finally {
-    child.kill();
-    await exit;
-  }
-}
+const serve = (options, use) => serveBy(program, options, use);
 
 /** The index of the shown tick. */
 async function shownTick(page) {

@@ -59,7 +59,8 @@ pub(crate) fn check(root: &Path) -> Result<(), WebError> {
     Ok(())
 }
 
-/// Uses the pages of the tested program in Chromium: a report of the bench, one of a sweep, and the live page.
+/// Uses the pages of the tested program in Chromium: a report of the bench, one of a sweep, the live page, and the
+/// playground if it is built.
 pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     if !Path::new(CHROMIUM).exists() {
         return Err(WebError::NoChromium);
@@ -73,7 +74,13 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     let pages = [bench, sweep].map(|directory| format!("{directory}/index.html"));
     let web = root.join("web");
     run(&web, "node", &["test/pages.mjs", &pages[0], &pages[1]])?;
-    run(&web, "node", &["test/live.mjs", &program])
+    run(&web, "node", &["test/live.mjs", &program])?;
+    let playground = target_directory(root).join("playground");
+    if !playground.join("vibrissa.wasm").exists() {
+        println!("      left out: the playground, which is not built (cargo x playground)");
+        return Ok(());
+    }
+    run(&web, "node", &["test/playground.mjs", &program, &playground.to_string_lossy()])
 }
 
 /// Installs the pinned tools, checks the types, and tests the parts that need no browser.

@@ -1,5 +1,8 @@
 import type { LanguageMessage } from "./messages.ts";
 
+/** The time (ms) after the last change of a text before it is analysed. */
+const PAUSE = 150;
+
 /** The document of the policy in the language server. */
 export const DOCUMENT = "file:///policy.fsm";
 
@@ -35,6 +38,8 @@ export class Language {
   readonly #waiting = new Map<number, (answer: unknown) => void>();
   #next = 1;
   #version = 0;
+  #changed: string | undefined;
+  #timer: number | undefined;
 
   constructor(send: (message: unknown) => void, show: (problems: Problem[], version: number) => void) {
     [this.#send, this.#show] = [send, show];
@@ -49,12 +54,25 @@ export class Language {
   open(text: string): void {
     this.#waiting.forEach((resolve) => resolve(null));
     this.#waiting.clear();
+    this.#changed = undefined;
     void this.#ask("initialize", { processId: null, rootUri: null, capabilities: {} });
     this.#tell("textDocument/didOpen", { textDocument: { uri: DOCUMENT, languageId: "fsm", version: (this.#version += 1), text } });
   }
 
+  /** Sends a changed text, as soon as it has not changed for a while or a question needs it. */
   change(text: string): void {
-    this.#tell("textDocument/didChange", { textDocument: { uri: DOCUMENT, version: (this.#version += 1) }, contentChanges: [{ text }] });
+    this.#version += 1;
+    this.#changed = text;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#flush(), PAUSE);
+  }
+
+  #flush(): void {
+    clearTimeout(this.#timer);
+    if (this.#changed !== undefined) {
+      this.#tell("textDocument/didChange", { textDocument: { uri: DOCUMENT, version: this.#version }, contentChanges: [{ text: this.#changed }] });
+      this.#changed = undefined;
+    }
   }
 
   async hover(position: Position): Promise<string | undefined> {
@@ -85,6 +103,7 @@ export class Language {
   }
 
   #ask(method: string, params: unknown): Promise<unknown> {
+    this.#flush();
     const id = this.#next++;
     this.#send({ jsonrpc: "2.0", id, method, params });
     return new Promise((resolve) => this.#waiting.set(id, resolve));

@@ -52,7 +52,7 @@ export type ToWorker =
   | { type: "speed"; speed: number }
   | { type: "live"; message: PageMessage }
   | { type: "language"; message: unknown }
-  | { type: "compare"; scenario: string };
+  | { type: "compare"; scenario: string; policies: string[] };
 
 /** A message from the worker to its page. */
 export type FromWorker =

@@ -5,20 +5,19 @@ import { element } from "../shared/element.ts";
 
 /** The parameters of the policy as sliders. */
 export class Parameters {
-  readonly element = element("section", "parameters");
+  readonly element = element("details", "parameters");
   readonly #changed: () => void;
   readonly #body = element("tbody");
   #fields: ParameterField[] = [];
+  #values: Record<string, number> = {};
   #known = "";
 
   /** `changed` is called after a value has changed. */
   constructor(changed: () => void) {
     this.#changed = changed;
     const reset = button("values of the text", () => this.clear(), "restore all values of the text");
-    this.element.append(
-      element("div", "head", element("h2", "", "Parameters"), element("div", "tools", reset)),
-      element("div", "table", element("table", "", this.#body)),
-    );
+    this.element.open = true;
+    this.element.append(element("summary", "", "Parameters"), element("div", "table", element("table", "", this.#body)), element("div", "tools", reset));
     this.element.hidden = true;
   }
 
@@ -27,7 +26,9 @@ export class Parameters {
 
   /** Shows the parameters of a run that has begun with the values of `set`. */
   show(parameters: readonly ParameterInfo[]): void {
-    const known = JSON.stringify(parameters.map((info) => ({ ...info, value: null })));
+    // The values of the text. Those that a slider has set are not told again.
+    this.#values = Object.fromEntries(parameters.map(({ name, value }) => [name, name in this.set ? (this.#values[name] ?? value) : value]));
+    const known = JSON.stringify(parameters.map((info) => ({ ...info, value: this.#values[info.name] })));
     this.element.hidden = parameters.length === 0;
     if (known === this.#known) {
       return;
@@ -47,7 +48,7 @@ export class Parameters {
   clear(): void {
     const had = Object.keys(this.set);
     had.forEach((name) => delete this.set[name]);
-    this.#known = "";
+    [this.#known, this.#values] = ["", {}];
     if (had.length > 0) {
       this.#changed();
     }

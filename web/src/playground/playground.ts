@@ -16,7 +16,7 @@ import { policySyntax, scenarioSyntax } from "./syntax.ts";
 
 /** The ratios of simulated time to wall time. */
 const SPEEDS: readonly [speed: number, name: string][] = [[1, "real time"], [5, "5 times"], [20, "20 times"], [Infinity, "as fast as possible"]];
-/** The time (ms) after the last change of a text before it is analysed, and of a slider before the run begins again. */
+/** The time (ms) after the last change of a slider before the run begins again. */
 const PAUSE = 150;
 
 /** The playground: editors, the run, and its score. */
@@ -42,7 +42,7 @@ export class Playground {
   #compared = "";
   #running = { policy: "", scenario: "" };
   #last: { result: Result; picture: string } | undefined;
-  #timers = new Map<string, number>();
+  #timer: number | undefined;
 
   constructor(root: HTMLElement) {
     this.#root = root;
@@ -140,7 +140,7 @@ export class Playground {
       if (this.#catalog?.policies[Number(this.#template.value)]?.text !== text) {
         this.#template.value = String(policies.length);
       }
-      this.#later("analyse", () => this.#language.change(text));
+      this.#language.change(text);
     }, [policySyntax(words), ...services(this.#language)]);
     this.#scenario = new Editor(scenarioBox, "scenario", (text) => {
       if (this.#catalog?.scenarios[Number(this.#scene.value)]?.text !== text) {
@@ -158,7 +158,11 @@ export class Playground {
         this.#start();
       }
     }, true);
-    addEventListener("hashchange", () => void this.#openLink());
+    addEventListener("hashchange", () => void this.#openLink().then((isOpen) => {
+      if (isOpen) {
+        this.#start();
+      }
+    }));
     if (!(await this.#openLink())) {
       this.#load(policies[0]?.text ?? "", scenarios[0]);
     }
@@ -225,7 +229,8 @@ export class Playground {
   }
 
   #runSoon(): void {
-    this.#later("run", () => this.#start());
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#start(), PAUSE);
   }
 
   #start(): void {
@@ -233,7 +238,6 @@ export class Playground {
     this.#running = start;
     this.#fault.textContent = "";
     this.#tell("");
-    performance.mark("start");
     this.#simulator.send({ type: "start", start, speed: this.#pace() });
   }
 
@@ -246,9 +250,10 @@ export class Playground {
 
   /** Runs the policies of the program in the scene, unless their figures are there already. */
   #compare(): void {
-    if (this.#compared !== this.#running.scenario) {
-      this.#compared = this.#running.scenario;
-      this.#simulator.send({ type: "compare", scenario: this.#compared });
+    this.#compared = this.#running.scenario;
+    const missing = (this.#catalog?.policies ?? []).map(({ name }) => name).filter((name) => !this.#score.has(name));
+    if (missing.length > 0) {
+      this.#simulator.send({ type: "compare", scenario: this.#compared, policies: missing });
     }
   }
 
@@ -272,12 +277,6 @@ export class Playground {
 
   #tell(text: string): void {
     this.#notice.textContent = text;
-  }
-
-  /** Does something as soon as nothing has changed for a while. */
-  #later(name: string, action: () => void): void {
-    clearTimeout(this.#timers.get(name));
-    this.#timers.set(name, setTimeout(action, PAUSE));
   }
 }
 

@@ -38,6 +38,11 @@ export class Score {
     this.#show();
   }
 
+  /** True if the figures of a policy of the program are there. */
+  has(policy: string): boolean {
+    return this.#others.has(policy);
+  }
+
   /** Shows the figures of the run. */
   own(result: Result, realtime: number): void {
     this.#own = result;

@@ -13,6 +13,8 @@ const scope = globalThis as unknown as Scope;
 const SLICE = 12;
 /** The number of ticks in the first request of a slice. */
 const PORTION = 8;
+/** The number of ticks of a comparison before the worker looks for messages. */
+const COMPARED = 120;
 
 interface Advanced {
   frames: Frame[];
@@ -42,6 +44,8 @@ class Worker {
   /** Wall time (ms) that the simulation has taken. */
   #used = 0;
   #run = 0;
+  /** True if the first comparison has begun. */
+  #isComparing = false;
   #comparisons: { scenario: string; policy: string; text: string }[] = [];
 
   constructor(machine: Machine) {
@@ -60,13 +64,15 @@ class Worker {
         break;
       case "live": this.#control(message.message); break;
       case "language": scope.postMessage({ type: "language", messages: this.#machine.ask<LanguageMessage[]>({ type: "language", message: message.message }) }); break;
-      case "compare": this.#comparisons = this.#catalog.policies.map(({ name, text }) => ({ scenario: message.scenario, policy: name, text }));
+      case "compare":
+        this.#isComparing = false;
+        this.#comparisons = this.#catalog.policies.filter(({ name }) => message.policies.includes(name)).map(({ name, text }) => ({ scenario: message.scenario, policy: name, text }));
     }
     this.#schedule();
   }
 
   #start({ scenario, policy, set }: Start, speed: number): void {
-    this.#comparisons = [];
+    [this.#comparisons, this.#isComparing] = [[], false];
     this.#state = "finished";
     let hello: Hello;
     try {
@@ -162,18 +168,22 @@ class Worker {
     scope.postMessage({ type: "alive" });
   }
 
-  /** Runs a policy of the program in the scenario of the page. */
+  /** Goes on with the run of a policy of the program in the scenario of the page. */
   #compare(): void {
-    const next = this.#comparisons.shift();
+    const next = this.#comparisons[0];
     if (next === undefined) {
       return;
     }
     const { scenario, policy, text } = next;
     let result: Result | undefined;
     try {
-      this.#machine.ask({ type: "start", scenario, policy: text });
-      while (!this.#machine.ask<Advanced>({ type: "advance", ticks: 300, frames: false }).has_ended) {
-        scope.postMessage({ type: "alive" });
+      if (!this.#isComparing) {
+        this.#machine.ask({ type: "start", scenario, policy: text });
+        this.#isComparing = true;
+        return;
+      }
+      if (!this.#machine.ask<Advanced>({ type: "advance", ticks: COMPARED, frames: false }).has_ended) {
+        return;
       }
       result = this.#machine.ask<Scored>({ type: "score" }).result;
     } catch (fault) {
@@ -181,6 +191,8 @@ class Worker {
         throw fault;
       }
     }
+    this.#isComparing = false;
+    this.#comparisons.shift();
     scope.postMessage({ type: "compared", scenario, policy, result });
   }
 }

@@ -1,0 +1,164 @@
+// Uses the playground in Chromium: `node playground.mjs PROGRAM FOLDER`. The program serves the folder that `cargo x playground` has built.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { deflateRawSync } from "node:zlib";
+import { browser, checkFit, open, serve, tabTo } from "./browser.mjs";
+
+const [program, folder] = process.argv.slice(2);
+
+/** The visible text of an editor. */
+const text = (page, name) => page.evaluate((name) => document.querySelector(`.cm-content[aria-label="${name}"]`).innerText, name);
+
+/** Waits until the score of the run matches. */
+const expectVerdict = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector(".verdict")?.textContent ?? ""), pattern.source);
+
+/** Replaces the text of the policy. */
+async function write(page, policy) {
+  await page.focus('.cm-content[aria-label="policy"]');
+  await page.keyboard.press("Control+a");
+  await page.keyboard.insertText(policy);
+}
+
+/** The fragment of a link. */
+const fragment = (value) => `#1${deflateRawSync(typeof value === "string" || Buffer.isBuffer(value) ? value : JSON.stringify(value)).toString("base64url")}`;
+
+const still = (scenario) => ({ scenario, policy: "machine still  initial Still  state Still { stop }\n", set: {} });
+
+await serve(program, ["playground", folder], async (address) => {
+  for (const colorScheme of ["light", "dark"]) {
+    for (const width of [400, 1600]) {
+      await open(address, colorScheme, width, async (page) => {
+        await expectVerdict(page, /^completed/);
+        await page.waitForFunction(() => document.querySelectorAll(".score tbody tr").length === 3);
+        await checkFit(page, colorScheme, width);
+        for (const part of [".scene .whisker", ".scene .contour", ".box", ".guards li", ".plot .curve", ".parameters input", ".cm-gutters", ".t-keyword"]) {
+          assert.ok((await page.$$(part)).length > 0, `${part} is missing`);
+        }
+        const nameless = await page.$$eval("button, input, select, [role=textbox], svg[role=img]", (parts) =>
+          parts.filter((part) => !(part.getAttribute("aria-label") || part.labels?.length > 0 || part.textContent.trim())).map((part) => part.outerHTML));
+        assert.deepEqual(nameless, []);
+      });
+    }
+  }
+
+  await open(address, "light", 1600, async (page) => {
+    await expectVerdict(page, /^completed/);
+    await page.waitForFunction(() => document.querySelectorAll(".score tbody tr").length === 3);
+    const others = await page.$$eval(".score tbody tr", (rows) => rows.map((row) => [...row.cells].slice(1).map((cell) => cell.textContent).join(" ")));
+    assert.equal(others[0], others[1], "the same policy has the same figures");
+
+    // By keyboard: run, and the time to the first frame.
+    await page.keyboard.press("Control+Enter");
+    await page.waitForFunction(() => document.querySelector(".status").dataset.state === "running");
+    await page.focus(".slider");
+    await page.keyboard.press("p");
+    await page.waitForFunction(() => document.querySelector(".status").dataset.state === "paused");
+    const paused = Number(await page.inputValue(".slider"));
+    await page.keyboard.press("s");
+    await page.waitForFunction((tick) => Number(document.querySelector(".slider").value) === tick + 1, paused);
+    await page.keyboard.press("p");
+    await tabTo(page, ".bar .tools button:nth-child(2)");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => document.querySelector(".status").textContent.includes("stopped"));
+
+    // Diagnostics while typing, and a policy that does not compile is refused in words.
+    await write(page, "machine m\n\nwhisker r0\n\ninitial A\n\nstate A { stop  when r0.tuching -> B }\n");
+    await page.waitForFunction(() => /^[1-9]\d* error/.test(document.querySelector(".problems").textContent));
+    assert.ok((await page.$$(".cm-lintRange-error")).length > 0);
+    await page.keyboard.press("Control+Enter");
+    await page.waitForFunction(() => document.querySelector("pre.fault").textContent.includes("error[P"));
+
+    // Completion, hover texts and the formatter.
+    await write(page, "machine m\n\nwhisker r0\n\ninitial A\n\nstate A { stop  when r0.touching -> Failure(\"x\") }\n\nlet bend(w: whisker) = w.def");
+    await page.keyboard.press("Control+Space");
+    await page.waitForSelector(".cm-tooltip-autocomplete");
+    assert.ok((await page.textContent(".cm-tooltip-autocomplete")).includes("deflection"));
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => !document.querySelector(".cm-tooltip-autocomplete"));
+    await page.hover(".cm-line:nth-child(7) .t-keyword");
+    await page.waitForSelector(".cm-tooltip .hover");
+    await write(page, "machine m   initial A state A {stop}\n");
+    await page.waitForFunction(() => document.querySelector(".problems").textContent.startsWith("0 errors"));
+    await page.click("text=format");
+    await page.waitForFunction(() => document.querySelectorAll('.cm-content[aria-label="policy"] .cm-line').length > 3);
+
+    // The steps.
+    for (let step = 1; step <= 5; step += 1) {
+      await page.click(`.lessons .head button:nth-child(${step})`);
+      await page.click(".lessons >> text=solution");
+      await page.selectOption("select >> nth=2", "3");
+      await page.waitForFunction(() => document.querySelector(".lesson-verdict")?.textContent === "Done.");
+    }
+
+    // Downloads.
+    for (const [name, start] of [["policy", "machine"], ["scenario", "#"], ["result", "{"], ["picture", "<svg"]]) {
+      const [saved] = await Promise.all([page.waitForEvent("download"), page.click(`.tools >> text="${name}"`)]);
+      assert.ok((await readFile(await saved.path(), "utf8")).startsWith(start), name);
+    }
+
+    // A policy whose run would take for ever in a scene is stopped.
+    await write(page, still("").policy);
+    await page.selectOption("select >> nth=2", "0");
+    await page.click("text=run");
+    await page.waitForFunction(() => document.querySelector(".status").dataset.state === "running");
+    await page.click("text=stop");
+    await page.waitForFunction(() => document.querySelector(".status").textContent.includes("stopped"));
+  });
+
+  // A link holds everything.
+  await open(address, "light", 1600, async (page) => {
+    await expectVerdict(page, /^completed/);
+    const slider = page.locator(".parameters input[type=range]").first();
+    await slider.focus();
+    await page.keyboard.press("ArrowRight");
+    await page.click("text=copy link");
+    await page.waitForFunction(() => location.hash.length > 100);
+    const [link, before, value] = [page.url(), await text(page, "policy"), await slider.inputValue()];
+    await open(link, "light", 1600, async (other) => {
+      await expectVerdict(other, /^completed/);
+      assert.equal(await text(other, "policy"), before);
+      assert.equal(await other.locator(".parameters input[type=range]").first().inputValue(), value);
+    });
+  });
+
+  // Hostile links: nothing in them runs, becomes markup, leaves the page, or makes it useless.
+  await open(address, "light", 1600, async (page) => {
+    await expectVerdict(page, /^completed/);
+    const requests = [];
+    page.on("request", (request) => requests.push(request.url()));
+    page.on("dialog", (dialog) => assert.fail(dialog.message()));
+    const markup = ["<img src=x onerror=alert(1)>", "<script>alert(1)</script>", "<svg onload=alert(1)>", "javascript:alert(1)", "\"><iframe src=//evil.example>", "${alert(1)}", "{{constructor.constructor('alert(1)')()}}", "<style>@import'//evil.example'</style>", "</script><script>alert(1)</script>", "<a href=javascript:alert(1)>x</a>"];
+    const good = { ...still(""), scenario: "" };
+    const links = [];
+    for (const bad of markup) {
+      links.push(fragment({ ...good, policy: bad }), fragment({ ...good, scenario: bad }), fragment({ ...good, policy: `machine m # ${bad}\ninitial A state A { stop log "${bad}" }` }));
+      links.push(fragment({ ...good, scenario: `name: "${bad}"\n` }), fragment({ ...good, set: { [bad]: 1 } }), `#1${bad}`, `#${bad}`);
+    }
+    links.push("#1", "#1=", "#1AAAA", "#1%00", "#1\u{1f980}", `#1${"A".repeat(100_000)}`, fragment("null"), fragment("[]"), fragment("3"), fragment("{"), fragment(""), fragment("\"x\""));
+    links.push(fragment({}), fragment({ scenario: 1, policy: [] }), fragment({ ...good, set: null }), fragment({ ...good, set: { speed: 1e308, x: "1" } }), fragment("{\"scenario\":\"\",\"policy\":\"\",\"set\":{\"__proto__\":1,\"constructor\":2}}"));
+    links.push(fragment(Buffer.alloc(1 << 26)), fragment(Buffer.from([0xff, 0xfe, 0x80])), fragment({ ...good, policy: "(".repeat(100_000) }), fragment({ ...good, policy: `machine m initial A ${"state A { ".repeat(2000)}` }));
+    links.push(fragment({ ...good, scenario: "a: &a [x, x]\nb: [*a, *a, *a, *a]\n".repeat(50) }), fragment({ ...good, scenario: `${"[".repeat(50_000)}` }), fragment({ ...good, scenario: "objects:\n  - circle: {centre: [0 m, 0 m], radius: 1e300 m}\n" }));
+    links.push(fragment({ ...good, scenario: "policy: ../../etc/passwd\nobjects:\n  - outline: {file: /etc/passwd}\n" }), fragment({ ...good, policy: "machine m use \"../../etc/passwd\" initial A state A { stop }" }), fragment({ ...good, policy: "\0\u202e\ufeff" }));
+    while (links.length < 100) {
+      // Damaged bytes of a good link.
+      const bytes = Buffer.from(fragment({ ...good, policy: `machine m${links.length} initial A state A { stop }` }));
+      bytes[2 + ((links.length * 7) % (bytes.length - 2))] = 65 + (links.length % 26);
+      links.push(bytes.toString());
+    }
+    const count = await page.evaluate(() => document.querySelectorAll("script, iframe, img, object, embed").length);
+    for (const link of links) {
+      await page.evaluate((link) => { location.hash = link; }, link);
+      await page.waitForTimeout(20);
+    }
+    await page.waitForTimeout(500);
+    assert.equal(await page.evaluate(() => document.querySelectorAll("script, iframe, img, object, embed").length), count);
+    assert.deepEqual(requests.filter((request) => !request.startsWith(address) && !request.startsWith("blob:")), []);
+    assert.equal(Object.keys(await page.evaluate(() => ({ ...Object.prototype }))).length, 0);
+    // It still works.
+    await page.click(".lessons .head button:nth-child(1)");
+    await page.click(".lessons >> text=solution");
+    await page.waitForFunction(() => document.querySelector(".lesson-verdict")?.textContent === "Done.");
+    console.log(`${links.length} hostile links`);
+  });
+});
+await browser.close();
