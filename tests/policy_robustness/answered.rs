@@ -141,7 +141,9 @@ pub(crate) fn is_handled(text: &str) -> bool {
     assert!(!chart_mermaid(&chart).is_empty() && !chart_dot(&chart).is_empty());
     match chart_svg(&chart) {
         Ok(drawn) => assert!(!drawn.is_empty()),
-        Err(large) => assert!(large.states > DRAWN.0 || large.transitions > DRAWN.1, "a chart that people read is drawn: {large}"),
+        Err(large) => {
+            assert!(large.states > DRAWN.0 || large.transitions > DRAWN.1, "a chart that people read is drawn: {large}")
+        }
     }
     let bytes = artifact.to_bytes().unwrap();
     assert_eq!(Artifact::from_bytes(&bytes).as_ref(), Ok(&artifact));

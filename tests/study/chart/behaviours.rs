@@ -14,6 +14,9 @@ fn every_behaviour_has_its_statechart_in_the_documentation_and_a_test_file() {
     let mut drawn = 0;
     for entry in fs::read_dir(root.join("policies/std")).unwrap() {
         let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "fsm") {
+            continue;
+        }
         let source = Source::new("library.fsm", fs::read_to_string(&path).unwrap());
         let Ok(Checked::Library { behaviours, .. }) = check(&source) else { panic!("{}", path.display()) };
         for name in behaviours {

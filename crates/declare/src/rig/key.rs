@@ -151,7 +151,6 @@ impl RigKey {
     }
 
     /// A key in which a mismatch may differ, with the range and an example of the difference.
-    #[allow(dead_code, reason = "the keys that differ today have entries of their own, which are drawn first")]
     pub(super) const fn differs(self, change: Change, range: (f64, f64), example: &'static str) -> Self {
         Self { change: Some((change, range, example)), ..self }
     }

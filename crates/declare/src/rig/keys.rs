@@ -7,6 +7,7 @@ use vibrissa_runtime::units::Dimension as D;
 use super::key::Access::{Calibration, Choice as Word, Count, Flag, Number, Optional, Point, Triple};
 use super::key::Place::{Physics as InPhysics, Platform, Sensing, Whisker};
 use super::{Choice, Refusal, RigKey};
+use crate::mismatch::Change;
 use crate::physics::{Integrator, Physics, ShaftModel, Solver};
 
 type K = RigKey;
@@ -52,7 +53,7 @@ pub static KEYS: &[RigKey] = &[
     K::new("whiskers.*.young_modulus", Whisker(Number(|it| &mut it.shaft.young_modulus)), D::PRESSURE, (1e3, 1e13), "100 GPa",
         "Young's modulus of the material"),
     K::new("whiskers.*.damping", Whisker(Number(|it| &mut it.shaft.damping)), D::TIME, (0.0, 1.0), "1 ms",
-        "damping of the material relative to its stiffness"),
+        "damping of the material relative to its stiffness").differs(Change::Relative, (-0.9, 10.0), "20 %"),
     K::new("whiskers.*.out_of_plane", Whisker(Number(|it| &mut it.shaft.out_of_plane)), D::NUMBER, (1e-3, 1e3), "4",
         "ratio of the bending stiffness out of the plane to that in the plane, for spatial whiskers. It is more than 1 for a ribbon on edge").simulated(),
     K::new("whiskers.*.links", Whisker(Count(|it| &mut it.shaft.links)), D::NUMBER, (4.0, 64.0), "16",

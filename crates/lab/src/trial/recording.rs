@@ -2,9 +2,8 @@
 
 use super::trial::{Trial, TrialResult};
 use super::worlds::ExecuteError;
-use vibrissa_runtime::signal::{Command, Sample};
-use vibrissa_world::geometry::Point2;
-use vibrissa_world::world::{Fault, OutOfPlane, Posture, World};
+use vibrissa_runtime::signal::Sample;
+use vibrissa_world::world::{Observed, World};
 
 /// The samples of a trial, and its result.
 #[derive(Debug, Clone)]
@@ -21,42 +20,9 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the run cannot begin.
     pub fn record(&self) -> Result<Recording, ExecuteError> {
-        let mut world = Recorder { world: self.world()?, ticks: Vec::new() };
-        let result = self.run_in(&mut world)?;
-        Ok(Recording { result, ticks: world.ticks })
-    }
-}
-
-/// A world that keeps its samples.
-struct Recorder {
-    world: Box<dyn World>,
-    ticks: Vec<Vec<Sample>>,
-}
-
-impl World for Recorder {
-    fn advance(&mut self, command: &Command) -> Result<&[Sample], Fault> {
-        let samples = self.world.advance(command)?;
-        self.ticks.push(samples.to_vec());
-        Ok(samples)
-    }
-
-    fn body_touches(&self) -> bool {
-        self.world.body_touches()
-    }
-
-    fn snapped_off(&self, whisker: usize) -> bool {
-        self.world.snapped_off(whisker)
-    }
-
-    fn out_of_plane(&self, whisker: usize) -> Option<OutOfPlane> {
-        self.world.out_of_plane(whisker)
-    }
-
-    fn tip(&self, whisker: usize) -> Point2 {
-        self.world.tip(whisker)
-    }
-
-    fn posture(&self) -> Option<Posture> {
-        self.world.posture()
+        let mut ticks = Vec::new();
+        let keep = |_: &dyn World, samples: &mut Vec<Sample>| ticks.push(samples.clone());
+        let result = self.run_in(&mut Observed::new(self.world()?, keep))?;
+        Ok(Recording { result, ticks })
     }
 }

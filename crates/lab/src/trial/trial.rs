@@ -18,7 +18,7 @@ use crate::results::{CalibrationIdentity, Ending, Hashes, Identity, MismatchIden
 use crate::run::{Progress, Run, SteppedRun, Stopwatch, Trace, Watcher, drive};
 use crate::score::Score;
 use vibrissa_world::scene::{Scene, Violation, WorldSetup};
-use vibrissa_world::world::{TrueTips, World};
+use vibrissa_world::world::{World, with_true_tips};
 
 /// A policy in a scene and a world: everything that a run depends on.
 ///
@@ -156,7 +156,7 @@ impl Trial {
     pub fn world(&self) -> Result<Box<dyn World>, ExecuteError> {
         let world = build_world(&self.scene, self.world, self.seed)?;
         if self.true_tips || self.program.uses_true_tips() {
-            return Ok(Box::new(TrueTips::new(world, &self.true_rig(), self.scene.surfaces())));
+            return Ok(Box::new(with_true_tips(world, &self.true_rig(), self.scene.surfaces())));
         }
         Ok(world)
     }

@@ -2,6 +2,7 @@
 
 mod disturbed;
 mod fault;
+mod observed;
 mod out_of_plane;
 mod posture;
 mod pruning;
@@ -10,12 +11,13 @@ mod true_tips;
 
 pub use disturbed::Disturbed;
 pub use fault::Fault;
+pub use observed::Observed;
 pub use out_of_plane::OutOfPlane;
 pub use posture::Posture;
 pub use posture::raised;
 pub use pruning::{Decision, Pruning, Verdict};
 pub use sensors::{Sensors, whole};
-pub use true_tips::TrueTips;
+pub use true_tips::with_true_tips;
 
 use crate::geometry::Point2;
 use vibrissa_runtime::signal::{Command, Sample};
