@@ -69,10 +69,10 @@ await serve(program, ["playground", folder], async (address) => {
     await page.waitForFunction(() => document.querySelector("pre.fault").textContent.includes("error[P"));
 
     // Completion, hover texts and the formatter.
-    await write(page, "machine m\n\nwhisker r0\n\ninitial A\n\nstate A { stop  when r0.touching -> Failure(\"x\") }\n\nlet bend(w: whisker) = w.def");
+    await write(page, "machine m\n\nwhisker r0\n\ninitial A\n\nstate A { stop  when r0.touching -> Failure(\"x\") }\n\nlet bend(w: whisker) = w.base_");
     await page.keyboard.press("Control+Space");
     await page.waitForSelector(".cm-tooltip-autocomplete");
-    assert.ok((await page.textContent(".cm-tooltip-autocomplete")).includes("deflection"));
+    assert.ok((await page.textContent(".cm-tooltip-autocomplete")).includes("base_angle"));
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => !document.querySelector(".cm-tooltip-autocomplete"));
     await page.hover(".cm-line:nth-child(7) .t-keyword");

@@ -59,7 +59,7 @@ pub(crate) const LESSONS: [Lesson; 5] = [
     },
     Lesson {
         title: "Record what the whisker feels",
-        text: "A whisker that touches an object is bent. `r0.deflection` is the angle at its base. This policy drives towards the object if \
+        text: "A whisker that touches an object is bent. `r0.base_angle` is the angle at its base. This policy drives towards the object if \
                that angle is too small, and away from it if it is too large. It does not yet measure anything: `record r0` adds the \
                estimated tip to the contour.",
         task: "Record the contour in the state `Following`, so that more than a tenth of the disk is traced.",

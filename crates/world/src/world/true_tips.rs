@@ -13,7 +13,7 @@ const GAP: f64 = 2e-5;
 ///
 /// It is the only place at which true tips enter samples. A trial uses it only if true tips are asked for.
 #[must_use]
-pub fn with_true_tips(world: Box<dyn World>, rig: &Rig, surfaces: ContourSet) -> impl World {
+pub fn with_true_tips(world: Box<dyn World>, rig: &Rig, surfaces: ContourSet) -> impl World + use<> {
     // Radius of the tip of every whisker of the rig (m).
     let radii: Vec<f64> = rig.whiskers.iter().map(|whisker| whisker.shaft.radius_at(1.0)).collect();
     Observed::new(world, move |world: &dyn World, samples: &mut Vec<Sample>| {
