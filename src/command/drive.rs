@@ -251,6 +251,9 @@ fn injections(path: &Path, config: &Config, time: f64, files: &mut CommandFiles)
     let text = load::read(path, files)?;
     let refused = |cause: String| Failure::Injections { path: path.to_owned(), cause };
     let injections = Injection::list(&text.text, config).map_err(|cause| refused(cause.to_string()))?;
+    if injections.is_empty() {
+        return Err(refused("the list has no fault; write one, or leave out `--inject`".to_owned()));
+    }
     let seconds = |milliseconds: u64| milliseconds as f64 * 1e-3;
     for (index, injection) in injections.iter().enumerate() {
         // Faults before it make the run longer.

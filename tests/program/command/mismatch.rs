@@ -312,7 +312,10 @@ fn whiskers_of_a_rat_run_in_both_simulators_and_lighter_ones_are_refused_by_the_
         assert!(results[0]["sim_s"].as_f64().unwrap() > 1.0, "{world}: {results}");
     }
     let wire = "{radius: 2 um, links: 64, density: 500 kg/m^3}";
-    let light = file(&directory, "light.yaml", &scene("world: quasistatic\n", wire));
+    // The command chooses the simulator where the scenario does not.
+    let light = file(&directory, "light.yaml", &scene("", wire));
+    let output = vibrissa(&["run", &light, "--json", "--world", "quasistatic"]);
+    assert!(!stdout(&output).is_empty(), "{}", stderr(&output));
     if cfg!(feature = "sim") {
         let output = vibrissa(&["run", &light, "--world", "mujoco"]);
         assert_eq!(output.status.code(), Some(2));
@@ -322,7 +325,7 @@ fn whiskers_of_a_rat_run_in_both_simulators_and_lighter_ones_are_refused_by_the_
             "{told}"
         );
     }
-    let output = vibrissa(&["run", &file(&directory, "mujoco.yaml", &scene("", wire))]);
+    let output = vibrissa(&["run", &file(&directory, "mujoco.yaml", &scene("world: mujoco\n", wire))]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("or write `world: quasistatic`"), "{}", stderr(&output));
 }

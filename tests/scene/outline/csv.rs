@@ -43,6 +43,21 @@ fn a_blank_line_separates_polygons() {
 }
 
 #[test]
+fn a_comment_after_a_possible_end_of_a_polygon_merges_nothing_silently() {
+    for text in [
+        "0,0\n10,0\n10,5\n0,5\n# second\n20,0\n25,0\n25,5\n20,5\n",
+        "x,y\n0,0\n10,0\n10,5\n0,5\n  # a\n# b\n20,0\n25,0\n25,5\n",
+    ] {
+        let error = areas(text).unwrap_err();
+        assert!(matches!(&error.fault, OutlineFault::Syntax { reason } if reason.contains("blank line")), "{error}");
+        let comments = text.lines().enumerate().filter(|(_, line)| line.contains('#'));
+        assert_eq!(error.line, comments.last().map(|(index, _)| index + 1));
+        assert_eq!(areas(&text.replacen("#", "\n#", 1)).unwrap().len(), 2, "with a blank line they are two");
+    }
+    assert_eq!(areas("0,0\n10,0\n10,5\n0,5\n# the end\n").unwrap(), [50.0]);
+}
+
+#[test]
 fn what_is_no_corner_is_refused_at_its_line() {
     for (text, line) in [
         ("0,0\n10,0\n10,5\n0,5,7\n", 4),

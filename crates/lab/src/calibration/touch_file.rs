@@ -71,6 +71,9 @@ pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsErr
         }
         touches.push(row.touch().map_err(|reason| SetsError::new(line.saturating_sub(1), reason))?);
     }
+    if touches.is_empty() {
+        return Err(SetsError::new(1, "there are no touches; write one in each line below the header".to_owned()));
+    }
     Ok(touches)
 }
 
@@ -189,6 +192,7 @@ mod tests {
         assert!(error("r0,0,0,0,edge,1,2,,,middle,1,1,0.1").contains("left"));
         assert!(error("r0,0,0").contains("as many values"));
         assert!(read_touches(b"whisker,x\nr0,1\n").is_err());
+        assert!(read_touches(HEADER.as_bytes()).unwrap_err().to_string().contains("there are no touches"));
     }
 
     proptest! {

@@ -47,7 +47,8 @@ impl Injection {
         let (what, count) = match kind {
             InjectionKind::StuckBus => ("bus", config.buses.len()),
             _ if kind.concerns_a_whisker() => ("whisker", config.rig.whiskers.len()),
-            _ => return Ok(()),
+            _ if part == 0 => return Ok(()),
+            _ => return Err(("part", "this kind of fault concerns no single part; leave out `part`".to_owned())),
         };
         if usize::from(part) < count {
             return Ok(());
@@ -243,6 +244,7 @@ mod tests {
             ("- {at_ms: -1, for_ms: 3, kind: no_pose}", 1, "`at_ms`: must be a whole number that is not negative"),
             ("- {at_ms: 1, for_ms: 3, kind: no_poses}", 1, "did you mean `no_pose`?"),
             ("- {at_ms: 1, for_ms: 3, kind: no_pose, part: 300}", 1, "`part`: must be a whole number from 0 to 255"),
+            ("- {at_ms: 1, for_ms: 3, kind: no_pose, part: 1}", 1, "leave out `part`"),
             ("- {at: 1, for_ms: 3, kind: no_pose}", 1, "there is no key `at`"),
             ("- {for_ms: 3, kind: no_pose}", 1, "the key `at_ms` is missing"),
             ("kind: no_pose", 1, "must be a list"),

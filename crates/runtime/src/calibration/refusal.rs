@@ -9,10 +9,10 @@ use super::touch_fit::{Prior, TouchFit, TouchNoise, TouchReading};
 /// Why touches do not calibrate a whisker.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TouchRefusal {
-    /// There are fewer touches than parameters of interest.
-    #[error("{count} touches are too few; at least {MIN_TOUCHES} are needed")]
+    /// There are fewer different touches than parameters of interest.
+    #[error("{count} different touches are too few; at least {MIN_TOUCHES} are needed")]
     TooFew {
-        /// Number of touches.
+        /// Number of touches, of which those at one pose of the body and one place of the object count once.
         count: usize,
     },
     /// The readings belong to another whisker, or the whisker is another one.
@@ -129,6 +129,10 @@ impl TouchFit {
         if play > FIRM + 4.0 * noise_in_air {
             return Err(TouchRefusal::Loose { play_urad: 1e6 * play });
         }
+        let count = different(readings);
+        if count < MIN_TOUCHES {
+            return Err(TouchRefusal::TooFew { count });
+        }
         let excess = self.excess();
         if self.chi_square <= limit && excess <= TOLERATED {
             return self.check_information();
@@ -194,6 +198,22 @@ impl TouchFit {
             })
             .fold(0.0, math::max)
     }
+}
+
+/// Number of touches that differ by more than their readings, up to [`MIN_TOUCHES`]. A repeated touch only reduces noise.
+fn different(readings: &[TouchReading]) -> usize {
+    let mut found: [Option<&TouchReading>; MIN_TOUCHES] = [None; MIN_TOUCHES];
+    for reading in readings {
+        let is_same = |other: &&TouchReading| {
+            (other.body, other.obstacle, other.side) == (reading.body, reading.obstacle, reading.side)
+        };
+        if found.iter().flatten().any(is_same) {
+            continue;
+        }
+        let Some(free) = found.iter_mut().find(|place| place.is_none()) else { break };
+        *free = Some(reading);
+    }
+    found.iter().flatten().count()
 }
 
 /// A sign that the readings are not those of the touched whisker.

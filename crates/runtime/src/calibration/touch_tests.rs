@@ -178,6 +178,20 @@ fn a_bent_whisker_is_refused_as_bent() {
 }
 
 #[test]
+fn a_touch_that_is_repeated_counts_once() {
+    let (mut random, truth) = (Random(1), Parameters::zeros());
+    let (_, readings) = calibrated(&left(), &truth, 16, &mut random, |_, _| ());
+    let verdict = |readings: &[TouchReading]| {
+        TouchFit::accepted(&left(), readings, &TouchNoise::default(), std::iter::empty()).map(|_| ())
+    };
+    assert_eq!(verdict(&readings), Ok(()));
+    for different in 1..6 {
+        let repeated: Vec<_> = readings.iter().copied().take(different).cycle().take(20).collect();
+        assert_eq!(verdict(&repeated), Err(TouchRefusal::TooFew { count: different }));
+    }
+}
+
+#[test]
 fn a_loose_whisker_is_refused_as_loose_whether_its_play_shows_in_the_air_or_in_contact() {
     for seed in 0..6 {
         let mut random = Random(seed);

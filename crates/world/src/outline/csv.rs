@@ -25,6 +25,8 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     for (line, text) in lines(text) {
         let text = text.trim();
         if text.starts_with(COMMENT) {
+            // With fewer corners, the polygon goes on behind the comment.
+            polygon.comment = Some(line).filter(|_| polygon.corners.len() > 2);
             continue;
         }
         if let Some(stated) = stated_separator(text).filter(|_| separator.is_none()) {
@@ -49,6 +51,11 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
             let reason = format!("expected two numbers, x and y, found `{}`", shown(text));
             return Err(OutlineFault::Syntax { reason }.at(Some(line)));
         };
+        if let Some(line) = polygon.comment {
+            // It may be the title of another polygon, which must not become a part of this one.
+            let reason = "a comment within a polygon; write a blank line before it if another polygon begins there, or remove it";
+            return Err(OutlineFault::Syntax { reason: reason.to_owned() }.at(Some(line)));
+        }
         count += 1;
         if count > MAX_PIECES + 1 {
             return Err(OutlineFault::TooLarge { what: "corners", limit: MAX_PIECES }.at(Some(line)));
@@ -69,6 +76,8 @@ struct Polygon {
     corners: Vec<Point2>,
     /// The line of its first corner.
     line: Option<usize>,
+    /// The line of the last comment behind the third corner or a later one.
+    comment: Option<usize>,
 }
 
 impl Polygon {

@@ -30,7 +30,7 @@ pub(super) fn read_section(reader: &mut Reader<'_>, entry: &Entry) -> Option<Mis
 
 /// Checks that the array of a mismatch at `place` can be simulated for this rig.
 pub(super) fn check(reader: &mut Reader<'_>, mismatch: &Mismatch, rig: &Rig, place: Span) {
-    let checked = if reader.is_quasi_static { mismatch.check_without_inertia(rig) } else { mismatch.check(rig) };
+    let checked = if reader.is_mujoco { mismatch.check(rig) } else { mismatch.check_without_inertia(rig) };
     if let Err(error) = checked {
         let fault = Diagnostic::error(fault::RIG, error.to_string(), place, "of this mismatch");
         reader.report(fault.hint("a mismatch describes the whiskers of the rig of the scenario"));

@@ -11,15 +11,15 @@ pub(super) struct Reader<'s> {
     base: vibrissa_yaml::Reader<'s>,
     /// Lines and arcs of the objects so far.
     pieces: usize,
-    /// True if the text states a simulator without inertia.
-    pub(super) is_quasi_static: bool,
+    /// True if the text states the simulator that has a least inertia. Without a statement, a command may choose another one.
+    pub(super) is_mujoco: bool,
 }
 
 impl<'s> Reader<'s> {
     /// Creates a reader for `source` with the diagnostics that exist so far. Referenced files are in `files`.
     pub(super) fn new(source: &'s Source, files: &'s mut Files<'s>, faults: Vec<Diagnostic>) -> Self {
         let base = vibrissa_yaml::Reader::new(source, files, faults);
-        Self { base, pieces: 0, is_quasi_static: false }
+        Self { base, pieces: 0, is_mujoco: false }
     }
 
     /// Returns the result, or the diagnostics in the order of the text.

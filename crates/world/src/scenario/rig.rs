@@ -41,7 +41,7 @@ fn read_tree(reader: &mut Reader<'_>, node: &Placed<Node>, place: Span) -> Optio
     let fault_count = reader.fault_count();
     // Without inertia, a shaft may be as light as that of an animal.
     let unchecked = |_: &mut vibrissa_yaml::Reader<'_>, _: &Whisker, _: Span| {};
-    let check = if reader.is_quasi_static { unchecked } else { check_inertia };
+    let check = if reader.is_mujoco { check_inertia } else { unchecked };
     let simulated = rig::Use { applies: |_| true, check };
     let rig::ReadRig { rig, mut physics, places } = rig::read(reader, node, place, simulated)?;
     timing::fit(reader, rig.sensing.sample_rate, &mut physics, &places);

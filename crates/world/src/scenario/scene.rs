@@ -29,8 +29,8 @@ pub(super) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
         Some(entry) => reader.text(&entry.value).map(|text| text.value),
         None => Some(String::new()),
     };
-    let quasi_static = WorldKind::QuasiStatic.name();
-    reader.is_quasi_static = matches!(fields.peek("world"), Some(Node::Text(world)) if world == quasi_static);
+    let mujoco = WorldKind::Mujoco.name();
+    reader.is_mujoco = matches!(fields.peek("world"), Some(Node::Text(world)) if world == mujoco);
     let rig = match fields.entry("rig") {
         Some(entry) => rig::read(reader, entry),
         None => Some((Rig::default(), Physics::default())),

@@ -68,7 +68,11 @@ pub(super) fn geometry(entity: &Record<'_>, transform: &Transform) -> Result<Ent
         }
         "CIRCLE" | "ARC" => {
             let radius = entity.number(40, 0.0)?;
-            if radius <= 0.0 {
+            if radius == 0.0 {
+                // A shape without size is no object.
+                return Ok(EntityGeometry::Nothing);
+            }
+            if radius < 0.0 {
                 return Err(OutlineFault::Radius { radius }.into());
             }
             let angles = match entity.kind {

@@ -19,12 +19,27 @@ pub(super) fn read(entity: &Record<'_>, transform: &Transform) -> Result<EntityG
     let vertices = if entity.kind == "LWPOLYLINE" { own_vertices(entity)? } else { following_vertices(entity)? };
     let transform = object_transform(entity, transform)?;
     let is_closed = entity.integer(70)? & 1 != 0;
+    if is_closed && is_flat(&vertices) {
+        // A shape without size is no object.
+        return Ok(EntityGeometry::Nothing);
+    }
     let count = if is_closed { vertices.len() } else { vertices.len().saturating_sub(1) };
     let mut pieces = Vec::with_capacity(count);
     for (&(start, bulge), &(end, _)) in vertices.iter().zip(vertices.iter().cycle().skip(1)).take(count) {
         pieces.extend(side(start, end, bulge, &transform)?);
     }
     Ok(if is_closed { EntityGeometry::Whole(pieces) } else { EntityGeometry::Loose(pieces) })
+}
+
+/// True if all sides are straight and on one line.
+fn is_flat(vertices: &[Vertex]) -> bool {
+    let [(first, _), .., (last, _)] = vertices else { return true };
+    let from_first = |place: [f64; 2]| Vector2::new(place[0] - first[0], place[1] - first[1]);
+    // The last vertex may be at the first one.
+    let farthest = vertices.iter().map(|&(place, _)| from_first(place)).fold(from_first(*last), |farthest, place| {
+        if place.norm() > farthest.norm() { place } else { farthest }
+    });
+    vertices.iter().all(|&(place, bulge)| bulge == 0.0 && from_first(place).perp(&farthest) == 0.0)
 }
 
 /// The vertices of a lightweight polyline, within the entity.
