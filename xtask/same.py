@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 # What says which program ran, on which text, how long and when.
-OWN_OF_A_PROGRAM = {"provenance", "start_s", "wall_s", "realtime", "tick_us", "hash", "key", "policy_hash", "machine_hash"}
+OWN_OF_A_PROGRAM = {"provenance", "inputs", "start_s", "wall_s", "realtime", "tick_us", "hash", "key", "policy_hash", "machine_hash"}
 POLICIES = ["thesis", "vibrissa"]
 SCENARIO = Path(__file__).resolve().parent.parent / "scenarios" / "disk.yaml"
 SWEEP = """name: same

@@ -23,6 +23,6 @@ impl Trial {
         let mut ticks = Vec::new();
         let keep = |_: &dyn World, samples: &mut Vec<Sample>| ticks.push(samples.clone());
         let result = self.run_in(&mut Observed::new(self.world()?, keep))?;
-        Ok(Recording { result, ticks })
+        Ok(Recording { ticks, result })
     }
 }
