@@ -26,8 +26,14 @@ pub(super) fn traced_outlines(estimate: &Estimate, reference: &ContourSet) -> Ve
     reference.contours().map(|contour| traced(estimate, contour)).collect()
 }
 
+/// The traced share (0 to 1) of each contour of the reference, in its order.
+#[must_use]
+pub fn outline_coverages(estimate: &Estimate, reference: &ContourSet) -> Vec<f64> {
+    outline_shares(&traced_outlines(estimate, reference), reference)
+}
+
 /// The share (0 to 1) of each contour of the reference that has been `traced`, in its order.
-pub(super) fn outline_coverages(traced: &[Vec<Range<f64>>], reference: &ContourSet) -> Vec<f64> {
+pub(super) fn outline_shares(traced: &[Vec<Range<f64>>], reference: &ContourSet) -> Vec<f64> {
     let share = |(contour, traced): (&Contour, &Vec<Range<f64>>)| share(traced.iter(), contour.length());
     reference.contours().zip(traced).map(share).collect()
 }

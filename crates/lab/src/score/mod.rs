@@ -31,7 +31,7 @@ pub use axis::{Midpoint, axis_error, midpoints};
 pub use body_path::body_path;
 pub use collision::{Collisions, FirstContact};
 pub use corner::{CornerFigures, CornerStatistics, SHARP, SIDE, TracedCorner, traced_corners};
-pub use coverage::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, coverage, object_coverage, traced};
+pub use coverage::{COVERAGE_RESOLUTION, COVERAGE_TOLERANCE, coverage, object_coverage, outline_coverages, traced};
 pub use coverage_tracker::CoverageTracker;
 pub use error::{ErrorFigures, TipDistance};
 pub use estimate::{Estimate, MAX_BREAK, MAX_STEP};

@@ -1,6 +1,6 @@
 //! All metrics of a run.
 
-use super::coverage::{coverage_of, outline_coverages, traced_outlines};
+use super::coverage::{coverage_of, outline_shares, traced_outlines};
 use super::reach::out_of_reach_of;
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
@@ -66,7 +66,7 @@ impl Score {
         let last_tip = tips.iter().max_by_key(|tip| tip.tick).map(|tip| tip.tip_world);
         let path = body_path(&run.trace.ticks);
         let traced = traced_outlines(&estimate, &truth.reference);
-        let outlines = outline_coverages(&traced, &truth.reference);
+        let outlines = outline_shares(&traced, &truth.reference);
         Self {
             time: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
             error: ErrorFigures::of(&tips),
