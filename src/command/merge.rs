@@ -57,7 +57,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<Exit, Failure> {
     let page = read.output("--out", &path.with_file_name(PAGE))?;
     let provenance = of_parts(&merged.origins);
     let _lock = merged.check_path(&path)?;
-    file.write(merged.text(&provenance)?)?;
+    file.write_with(|out| merged.write(&provenance, out))?;
     let summary = SweepSummary::new(&merged.sweep, &merged.figures, 0);
     print_summary(&provenance, &summary, &path, arguments.format)?;
     write_page(page, &provenance, &merged.sweep, &summary, &path, arguments.format)?;

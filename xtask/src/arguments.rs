@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::checks::Chosen;
+use crate::instructions;
 use crate::nightly;
 use crate::pieces;
 use crate::results::Selection;
@@ -30,6 +31,9 @@ Commands:
   bench   run all benches and compare them with benches/baseline.csv
             --save         make them the baseline
   playground  build the playground for the browser in target/playground; needs npm and the target wasm32-unknown-unknown
+  instructions  count the instructions of whole runs with Valgrind and compare them with benches/instructions.csv
+            --accept WHY   store the changed counts with this reason
+            --program FILE use this program instead of building it
   results [NAME...]  write the pages of measured figures into docs/results; without names, those of less than two minutes
             --stale        only the pages whose inputs have changed, all of them without names; goes on where it was stopped
             --check        only say which pages that are
@@ -61,6 +65,7 @@ pub(crate) enum Command {
     Bench {
         save: bool,
     },
+    Instructions(instructions::Options),
     Results(Selection),
     /// Says which published pages are stale.
     Stale,
@@ -84,6 +89,8 @@ pub(crate) enum ArgumentError {
     NoWheelFile,
     #[error("`--program` needs the file that it is to run")]
     NoProgram,
+    #[error("`--accept` needs the reason of the change, without a line end")]
+    NoReason,
     #[error("`--from` needs the number of a check, such as `cargo x test --from 12`")]
     NoCheck,
     #[error("`--part` is `lints` or `tests`")]
@@ -112,6 +119,7 @@ impl Command {
                 let save = arguments.next_if(|argument| argument == "--save").is_some();
                 return end("bench", arguments, Self::Bench { save });
             }
+            "instructions" => return parse_instructions(arguments),
             "results" => return parse_results(arguments),
             "nightly" => return parse_nightly(arguments),
             "pieces" => return parse_pieces(arguments),
@@ -166,6 +174,23 @@ fn parse_test(arguments: impl Iterator<Item = OsString>) -> Result<Command, Argu
         };
     }
     end("test", arguments, Command::Test { chosen })
+}
+
+fn parse_instructions(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
+    let mut options = instructions::Options::default();
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--accept") => {
+                let reason = arguments.next().and_then(|reason| reason.into_string().ok());
+                let reason = reason.filter(|reason| !reason.trim().is_empty() && !reason.contains('\n'));
+                options.accept = Some(reason.ok_or(ArgumentError::NoReason)?);
+            }
+            Some("--program") => options.program = Some(program(&mut arguments)?),
+            Some("--help" | "-h") => return Ok(Command::Help),
+            _ => return Err(unexpected("instructions", &argument)),
+        }
+    }
+    Ok(Command::Instructions(options))
 }
 
 fn parse_results(mut arguments: impl Iterator<Item = OsString>) -> Result<Command, ArgumentError> {
@@ -248,6 +273,15 @@ mod tests {
     fn benches_are_compared_unless_they_are_to_be_saved() {
         assert_eq!(parse(&["bench"]), Ok(Command::Bench { save: false }));
         assert_eq!(parse(&["bench", "--save"]), Ok(Command::Bench { save: true }));
+    }
+
+    #[test]
+    fn changed_instructions_are_accepted_with_a_reason() {
+        let options = instructions::Options { accept: Some("a new solver".to_owned()), program: None };
+        assert_eq!(parse(&["instructions", "--accept", "a new solver"]), Ok(Command::Instructions(options)));
+        for reason in [&["instructions", "--accept"][..], &["instructions", "--accept", " "]] {
+            assert_eq!(parse(reason), Err(ArgumentError::NoReason));
+        }
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod cross;
 mod demo;
 mod fuzz;
 mod hash;
+mod instructions;
 mod json;
 mod links;
 mod nightly;
@@ -66,6 +67,7 @@ fn main() -> ExitCode {
         Command::Links => status(links::check(&root)),
         Command::Book => status(book::build(&root).map(|page| println!("Open {} in a browser.", page.display()))),
         Command::Bench { save } => status(bench::bench(&root, save)),
+        Command::Instructions(options) => status(instructions::instructions(&root, &options)),
         Command::Results(selection) => status(results::write(&root, &selection)),
         Command::Stale => status(results::check(&root).map(|()| println!("No page is stale."))),
         Command::Nightly(options) => status(nightly::nightly(&root, &options)),

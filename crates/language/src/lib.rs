@@ -142,7 +142,7 @@ pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
 /// # Ok::<(), Vec<vibrissa_text::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
-    Ok(optimise::optimise(front(source, load(source))?.2.program))
+    Ok(optimise::optimise(front(source, load(source), Analysis::Whole)?.2.program))
 }
 
 /// Compiles the text of a policy, and looks for probable mistakes.
@@ -158,22 +158,36 @@ pub fn compile(source: &Source) -> Result<Program, Vec<Diagnostic>> {
 /// # Ok::<(), Vec<vibrissa_text::diagnostic::Diagnostic>>(())
 /// ```
 pub fn compile_with_warnings(source: &Source) -> Result<Compiled, Vec<Diagnostic>> {
-    compile_loaded(source, load(source))
+    compile_loaded(source, load(source), Analysis::Whole)
+}
+
+/// Whether a text is searched for mistakes in its behaviour, which takes most of the time of a compilation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Analysis {
+    /// All warnings, and cycles of transitions.
+    Whole,
+    /// Neither, for a text that is known to have none.
+    Omitted,
 }
 
 /// Combines [`gather`] and [`compile_with_warnings`], and parses every text once.
-pub fn gather_and_compile(source: &Source, library: &mut Library<'_>) -> (Source, Result<Compiled, Vec<Diagnostic>>) {
+pub fn gather_and_compile(
+    source: &Source,
+    library: &mut Library<'_>,
+    analysis: Analysis,
+) -> (Source, Result<Compiled, Vec<Diagnostic>>) {
     let loaded = load::load(source, library);
     let whole = loaded.source.clone();
-    let compiled = compile_loaded(&whole, loaded);
+    let compiled = compile_loaded(&whole, loaded, analysis);
     (whole, compiled)
 }
 
-fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagnostic>> {
+fn compile_loaded(source: &Source, loaded: Loaded, analysis: Analysis) -> Result<Compiled, Vec<Diagnostic>> {
     let is_test_file = loaded.is_test_file();
-    let (source, files, lowered) = front(source, loaded)?;
+    let (source, files, lowered) = front(source, loaded, analysis)?;
     // The warnings belong to the machine's own file.
-    let warnings = if is_test_file { Vec::new() } else { analysis::warnings(&files, &lowered) };
+    let is_silent = is_test_file || analysis == Analysis::Omitted;
+    let warnings = if is_silent { Vec::new() } else { analysis::warnings(&files, &lowered) };
     // After the analysis, which reads conditions as they are written.
     let program = optimise::optimise(lowered.program);
     let artifact = artifact::artifact(&source, &files, program);
@@ -187,7 +201,7 @@ fn compile_loaded(source: &Source, loaded: Loaded) -> Result<Compiled, Vec<Diagn
 pub fn check(source: &Source) -> Result<Checked, Vec<Diagnostic>> {
     let loaded = load(source);
     if !loaded.is_library() {
-        return compile_loaded(source, loaded).map(|compiled| Checked::Machine(Box::new(compiled)));
+        return compile_loaded(source, loaded, Analysis::Whole).map(|compiled| Checked::Machine(Box::new(compiled)));
     }
     let (_, files) = checked_library(source, loaded)?;
     let names = |names: &mut dyn Iterator<Item = &ast::Name>| names.map(|name| name.text.clone()).collect();
@@ -234,9 +248,16 @@ fn checked_library(source: &Source, loaded: Loaded) -> Result<(Source, Files), V
     if faults.is_empty() { Ok((whole, files)) } else { Err(within(source, &whole, faults)) }
 }
 
-fn front(source: &Source, loaded: Loaded) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
+fn front(
+    source: &Source,
+    loaded: Loaded,
+    analysis: Analysis,
+) -> Result<(Source, Files, lower::Lowered), Vec<Diagnostic>> {
     let (whole, mut files, mut lowered) = lowered(source, loaded)?;
-    let errors = analysis::errors(&files, &lowered);
+    let errors = match analysis {
+        Analysis::Whole => analysis::errors(&files, &lowered),
+        Analysis::Omitted => Vec::new(),
+    };
     if !errors.is_empty() {
         return Err(errors);
     }

@@ -13,8 +13,8 @@ pub struct Physics {
     pub integrator: Integrator,
     /// The solver for contact forces.
     pub solver: Solver,
-    /// Longest step (s) while all whiskers are calm. One such step replaces several regular ones. With friction it is at
-    /// most 1.11 ms. Spatial chains have no calm steps with friction.
+    /// Longest step (s) while all whiskers are calm. One such step replaces several regular ones. There are none with
+    /// friction.
     pub calm_step: f64,
     /// True if a whisker at rest and out of reach of all solids is treated as a rigid part of the platform.
     pub rigid_in_air: bool,
@@ -33,7 +33,7 @@ pub struct Physics {
 
 /// The longest step (s) and contact time constant (s) that suffice with friction. Up to a friction of 0.3 a tip slides
 /// steadily, and a tip that snaps off after sticking penetrates less than the limit.
-const FRICTION_STEP: f64 = 1.0 / 3600.0;
+const FRICTION_STEP: f64 = 1.0 / 1800.0;
 const FRICTION_CONTACT_TIME: f64 = 1.25e-3;
 /// Largest short penetration depth of a tip (m). A tip that stuck snaps off faster than a sliding one.
 const FRICTION_PENETRATION_LIMIT: f64 = 3e-3;

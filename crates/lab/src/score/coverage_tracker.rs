@@ -39,7 +39,7 @@ impl CoverageTracker {
         let before = last.replace((tick, tip)).filter(|&before| is_joined(before, (tick, tip)));
         let line = Line::new(before.map_or(tip, |(_, tip)| tip).into(), tip.into());
         for (contour, traced) in self.reference.contours().zip(&mut self.traced) {
-            let distance = |s| distance_from(&line, contour.point_at(s));
+            let distance = |s, _: Range<f64>| distance_from(&line, contour.point_at(s));
             for new in stretches_below(contour.length(), COVERAGE_TOLERANCE, COVERAGE_RESOLUTION, distance) {
                 unite(traced, new);
             }

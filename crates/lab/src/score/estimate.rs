@@ -1,12 +1,16 @@
 //! The estimated contour of a run.
 
-use rstar::RTree;
-use rstar::primitives::Line;
+use std::cell::Cell;
+use std::ops::Range;
 
+use rstar::RTree;
+use rstar::primitives::{GeomWithData, Line};
+
+use super::lipschitz::Foot;
 use super::statistics::Statistics;
 use super::tip::{valid_tips, whiskers};
 use crate::run::Trace;
-use vibrissa_world::geometry::{Point2, min_distance};
+use vibrissa_world::geometry::{Point2, min_distance, min_distance_down_to};
 
 /// The largest number of ticks between consecutive tips of a stroke.
 ///
@@ -27,7 +31,31 @@ pub const MAX_STEP: f64 = 0.01;
 #[derive(Debug, Clone)]
 pub struct Estimate {
     strokes: Vec<Vec<Point2>>,
-    lines: RTree<Line<[f64; 2]>>,
+    /// All lines of the strokes, in their order.
+    lines: Vec<StrokeLine>,
+    /// The lines with their indices.
+    tree: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
+}
+
+/// A line of a stroke.
+#[derive(Debug, Clone, Copy)]
+struct StrokeLine {
+    line: Line<[f64; 2]>,
+    stroke: usize,
+    /// The length of the stroke (m) before it.
+    start: f64,
+}
+
+impl StrokeLine {
+    fn foot(&self, point: Point2) -> Foot {
+        let place = Point2::from(self.line.nearest_point(&point.into()));
+        let arc_length = self.start + (place - Point2::from(self.line.from)).norm();
+        Foot { distance: (point - place).norm(), place, curve: self.stroke, arc_length, loop_length: None }
+    }
+
+    fn end(&self) -> f64 {
+        self.start + (Point2::from(self.line.to) - Point2::from(self.line.from)).norm()
+    }
 }
 
 impl Estimate {
@@ -35,8 +63,16 @@ impl Estimate {
     #[must_use]
     pub fn new(trace: &Trace) -> Self {
         let strokes: Vec<_> = whiskers(trace).flat_map(|whisker| strokes(valid_tips(trace, whisker))).collect();
-        let lines = strokes.iter().flat_map(|stroke| lines(stroke)).map(|(from, to)| Line::new(from.into(), to.into()));
-        Self { lines: RTree::bulk_load(lines.collect()), strokes }
+        let mut all: Vec<StrokeLine> = Vec::new();
+        for (stroke, points) in strokes.iter().enumerate() {
+            for (from, to) in lines(points) {
+                let before = all.last().filter(|before| before.stroke == stroke);
+                let start = before.map_or(0.0, StrokeLine::end);
+                all.push(StrokeLine { line: Line::new(from.into(), to.into()), stroke, start });
+            }
+        }
+        let leaves = all.iter().enumerate().map(|(index, of)| GeomWithData::new(of.line, index));
+        Self { tree: RTree::bulk_load(leaves.collect()), strokes, lines: all }
     }
 
     /// The strokes, by whisker and time, as polylines of at least one point (m, world frame).
@@ -55,8 +91,45 @@ impl Estimate {
     /// The distance (m) of a point from the nearest stroke, in logarithmic time. `None` without strokes.
     #[must_use]
     pub fn distance(&self, point: Point2) -> Option<f64> {
-        (self.lines.size() > 0)
-            .then(|| min_distance(&self.lines, point, f64::INFINITY, |line| distance_from(line, point)))
+        (!self.lines.is_empty())
+            .then(|| min_distance(&self.tree, point, f64::INFINITY, |leaf| distance_from(leaf.geom(), point)))
+    }
+
+    /// True if a point is at most `distance` (m) away from a stroke. It takes the less time, the farther away the point is.
+    #[must_use]
+    pub fn is_within(&self, distance: f64, point: Point2) -> bool {
+        self.distance_between(distance..distance.next_up(), point) <= distance
+    }
+
+    /// The distance (m) of a point from the nearest stroke if it is in a `range`. Otherwise any number at or beyond the same end
+    /// of the range.
+    pub(super) fn distance_between(&self, range: Range<f64>, point: Point2) -> f64 {
+        let Range { start: enough, end: within } = range;
+        min_distance_down_to(enough, &self.tree, point, within, |leaf| distance_from(leaf.geom(), point))
+    }
+
+    /// The foot of a point on the strokes. Their indices are those of the curves.
+    pub(super) fn foot(&self, point: Point2) -> Foot {
+        let nearest = Cell::new((f64::INFINITY, None));
+        min_distance(&self.tree, point, f64::INFINITY, |leaf| {
+            let distance = distance_from(leaf.geom(), point);
+            if distance < nearest.get().0 {
+                nearest.set((distance, Some(leaf.data)));
+            }
+            distance
+        });
+        let line = nearest.get().1.and_then(|index| self.lines.get(index));
+        line.map_or_else(Foot::nowhere, |line| line.foot(point))
+    }
+
+    /// The nearest foot of a point on the stroke of another foot, within a distance `reach` (m) along the stroke. `None` if the
+    /// other foot is not on a stroke.
+    pub(super) fn foot_along(&self, other: &Foot, point: Point2, reach: f64) -> Option<Foot> {
+        let (first, last) = (other.arc_length - reach, other.arc_length + reach);
+        let from = self.lines.partition_point(|line| (line.stroke, line.end()) < (other.curve, first));
+        let lines = self.lines.get(from..)?.iter();
+        let near = lines.take_while(|line| line.stroke == other.curve && line.start <= last);
+        near.map(|line| line.foot(point)).min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 }
 

@@ -1,10 +1,10 @@
-//! The wall time of control ticks.
+//! The processor time of control ticks.
 
 use std::time::Duration;
 
 use super::Statistics;
 
-/// Wall time of a run's control ticks (s).
+/// Processor time of the thread in a run's control ticks (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Latency {
     /// Mean.

@@ -40,12 +40,12 @@ impl Passage {
         let shares = axes.iter().map(|axis| (axis, passed_share(trace, axis)));
         let (axis, share) = shares.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
         let sides = [axis.left(), axis.right()].map(|contour| side_points(contour, axis, reference));
-        let reaches_both = whisker_span(rig).is_some_and(|span| span > clear_width(axis, &sides));
+        let reaches_both = whisker_span(rig).is_some_and(|span| is_wider(span, axis, &sides));
         let [left_coverage, right_coverage] = match contact_stretch(tips, axis) {
             None => [0.0; 2],
             Some((first, last)) => sides.map(|points| {
                 let within = points.into_iter().filter(|(along, _)| (first..=last).contains(along));
-                let traced = within.map(|(_, point)| estimate.distance(point).is_some_and(|d| d <= COVERAGE_TOLERANCE));
+                let traced = within.map(|(_, point)| estimate.is_within(COVERAGE_TOLERANCE, point));
                 share_of(traced)
             }),
         };
@@ -83,29 +83,38 @@ fn side_points(contour: &Contour, axis: &TunnelAxis, reference: &ContourSet) -> 
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count that a scene's limits bound")]
     let count = (contour.length() / STEP).ceil() as usize;
     let point = |index: usize| contour.point_at((index as f64 + 0.5) * contour.length() / count as f64);
-    let points = (0..count).map(point).filter(|&point| reference.distance(point) <= ON_SIDE);
-    points.map(|point| (axis.line().nearest(point).arc_length, point)).collect()
+    let points = (0..count).map(point).filter(|&point| reference.is_within(ON_SIDE, point));
+    points.map(|point| (axis.line().nearest_point(point).1, point)).collect()
 }
 
 /// The interval along the axis in which tips touch inner sides.
 fn contact_stretch(tips: &[Tip], axis: &TunnelAxis) -> Option<(f64, f64)> {
-    let on_side = |tip: &&Tip| {
-        let distance = axis.left().nearest(tip.tip_world).distance.min(axis.right().nearest(tip.tip_world).distance);
-        distance <= COVERAGE_TOLERANCE
-    };
-    let along = tips.iter().filter(on_side).map(|tip| axis.line().nearest(tip.tip_world).arc_length);
+    let on_side =
+        |tip: &&Tip| [axis.left(), axis.right()].iter().any(|side| side.is_within(COVERAGE_TOLERANCE, tip.tip_world));
+    let along = tips.iter().filter(on_side).map(|tip| axis.line().nearest_point(tip.tip_world).1);
     along.fold(None, |stretch, along| {
         let (first, last) = stretch.unwrap_or((along, along));
         Some((f64::min(first, along), f64::max(last, along)))
     })
 }
 
-/// The median distance (m) of points of the inner sides from the opposite side.
-fn clear_width(axis: &TunnelAxis, [left, right]: &[Vec<(f64, Point2)>; 2]) -> f64 {
-    let from_left = left.iter().map(|(_, point)| axis.right().nearest(*point).distance);
-    let from_right = right.iter().map(|(_, point)| axis.left().nearest(*point).distance);
-    let widths = Statistics::of(from_left.chain(from_right).collect());
-    widths.map_or(f64::INFINITY, |widths| widths.percentile(50.0))
+/// True if `span` (m) exceeds the median distance of points of the inner sides from the opposite side.
+fn is_wider(span: f64, axis: &TunnelAxis, [left, right]: &[Vec<(f64, Point2)>; 2]) -> bool {
+    let opposite = || {
+        let of_left = left.iter().map(|(_, point)| (axis.right(), *point));
+        of_left.chain(right.iter().map(|(_, point)| (axis.left(), *point)))
+    };
+    let count = left.len() + right.len();
+    let below = opposite().filter(|(wall, point)| wall.is_within(span.next_down(), *point)).count();
+    // Distances decide only if the median is between one below the span and one above it.
+    if 2 * below + 2 <= count {
+        return false;
+    }
+    if below < count && 2 * below < count + 2 {
+        let widths = Statistics::of(opposite().map(|(wall, point)| wall.distance(point)).collect());
+        return widths.is_some_and(|widths| span > widths.percentile(50.0));
+    }
+    count > 0
 }
 
 /// The largest distance (m) of two parallel walls that a left and a right whisker of `rig` touch at once. `None`

@@ -1,15 +1,16 @@
 //! Parts of an outline that the rig cannot reach.
 
-use std::cell::Cell;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::Estimate;
-use super::coverage::traced;
+use super::coverage::traced_outlines;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 use vibrissa_runtime::rig::Rig;
-use vibrissa_world::geometry::{Contour, Point2, Segment, Vector2, perpendicular, rotate};
+use vibrissa_world::geometry::{BoundingBox, Contour, Point2, Segment, Vector2, perpendicular, rotate};
 use vibrissa_world::scene::{Truth, gap};
 
 /// Cell size (m) of the grid on which the base of a whisker and its shaft are searched. Narrower gaps count as closed.
@@ -25,8 +26,6 @@ const SPACING: f64 = 4e-3;
 const DETOUR: f64 = 1.0824;
 /// The distance (m) up to which two lines intersect, because of rounding.
 const ROUNDING: f64 = 1e-9;
-/// The largest number of queries of an outline in a search, which take some seconds.
-const MAX_QUERIES: usize = 2_500_000;
 /// The distance (m) of the sampled points from the outline, on the outside.
 const OUTSIDE_OFFSET: f64 = 1e-5;
 
@@ -39,18 +38,19 @@ const OUTSIDE_OFFSET: f64 = 1e-5;
 ///
 /// Poses are sampled on a grid. Footprints are reduced by the distance between neighbouring poses, some 4 mm for the
 /// reference rig. In a tapered gap, this admits some 15 mm more. Points are sampled every 4 mm.
-///
-/// The work is limited. Points that remain at the limit count as within reach.
 #[must_use]
 pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
+    out_of_reach_of(&traced_outlines(estimate, &truth.reference), truth, rig)
+}
+
+/// The same, by the traced intervals of each contour of the reference.
+pub(super) fn out_of_reach_of(traced: &[Vec<Range<f64>>], truth: &Truth, rig: &Rig) -> f64 {
     let mut search = Search::new(rig, truth);
-    let of_contour = |contour: &Contour| -> f64 {
-        untraced(&traced(estimate, contour), contour.length())
-            .map(|stretch| search.out_of_reach(contour, &stretch))
-            .sum()
+    let of_contour = |(contour, traced): (&Contour, &Vec<Range<f64>>)| -> f64 {
+        untraced(traced, contour.length()).map(|stretch| search.out_of_reach(contour, &stretch)).sum()
     };
     // An empty `sum` is negative zero.
-    truth.reference.contours().map(of_contour).fold(0.0, |sum, length| sum + length)
+    truth.reference.contours().zip(traced).map(of_contour).fold(0.0, |sum, length| sum + length)
 }
 
 /// The complement of some intervals in `0..length`.
@@ -65,7 +65,7 @@ type Node = (i64, i64);
 
 /// A search through the free space of one scene. Results for nodes are cached.
 struct Search<'s> {
-    truth: &'s Truth,
+    outlines: Outlines<'s>,
     /// For every whisker, the corners of the footprint relative to its base (m, body frame), reduced by the distance
     /// between neighbouring poses.
     mounts: Vec<[Vector2; 4]>,
@@ -73,8 +73,8 @@ struct Search<'s> {
     length: f64,
     is_free: HashMap<Node, bool>,
     has_base: HashMap<Node, bool>,
-    /// The number of queries of outlines so far.
-    queries: Cell<usize>,
+    /// True for a line between two neighbouring nodes, the smaller one first, that crosses no outline.
+    is_open: HashMap<(Node, Node), bool>,
 }
 
 impl<'s> Search<'s> {
@@ -88,12 +88,12 @@ impl<'s> Search<'s> {
             shrunk(from_base, margin)
         });
         Self {
-            truth,
+            outlines: Outlines::new(truth),
             mounts: mounts.collect(),
             length: rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, f64::max),
             is_free: HashMap::new(),
             has_base: HashMap::new(),
-            queries: Cell::new(0),
+            is_open: HashMap::new(),
         }
     }
 
@@ -115,19 +115,16 @@ impl<'s> Search<'s> {
     /// True if a tip may touch a point of an outline from the side of `outwards`.
     fn can_touch(&mut self, at: Point2, outwards: Vector2) -> bool {
         let from = at + outwards;
-        if self.queries.get() > MAX_QUERIES {
-            return true;
-        }
         // Nearly all reachable points have a pose directly in front of them. The search would take a thousand times as
         // long.
-        self.is_outside(from) && (self.is_in_front(from, outwards.normalize()) || self.reaches(from))
+        self.outlines.is_outside(from) && (self.is_in_front(from, outwards.normalize()) || self.reaches(from))
     }
 
     /// True if the platform has a clear pose with a straight whisker along the normal of the outline at a point.
     fn is_in_front(&self, point: Point2, normal: Vector2) -> bool {
         STRAIGHT_REACHES.iter().any(|reach| {
             let base = point + reach * self.length * normal;
-            self.is_open(point, base)
+            self.outlines.is_open(point, base)
                 && (0..STRAIGHT_HEADINGS).any(|index| {
                     let heading = TAU * f64::from(index) / f64::from(STRAIGHT_HEADINGS);
                     self.has_pose(base, heading + normal.y.atan2(normal.x))
@@ -144,7 +141,7 @@ impl<'s> Search<'s> {
         let (column, row) = node_at(point);
         for node in (-1..=2).flat_map(|x| (-1..=2).map(move |y| (column + x, row + y))) {
             let length = (place(node) - point).norm();
-            if length <= 2.0 * CELL_SIZE && self.is_free(node) && self.is_open(point, place(node)) {
+            if length <= 2.0 * CELL_SIZE && self.is_free(node) && self.outlines.is_open(point, place(node)) {
                 nearest.insert(node, length);
                 open.push(SearchPath { length, node });
             }
@@ -152,9 +149,6 @@ impl<'s> Search<'s> {
         while let Some(SearchPath { length, node }) = open.pop() {
             if length > most {
                 return false;
-            }
-            if self.queries.get() > MAX_QUERIES {
-                return true;
             }
             if nearest.get(&node).is_some_and(|&shorter| shorter < length) {
                 continue;
@@ -166,7 +160,7 @@ impl<'s> Search<'s> {
                 let next = (node.0 + step.0, node.1 + step.1);
                 let length = length + (place(next) - place(node)).norm();
                 let is_shorter = nearest.get(&next).is_none_or(|&known| length < known);
-                if is_shorter && self.is_free(next) && self.is_open(place(node), place(next)) {
+                if is_shorter && self.is_free(next) && self.are_joined(node, next) {
                     nearest.insert(next, length);
                     open.push(SearchPath { length, node: next });
                 }
@@ -176,25 +170,15 @@ impl<'s> Search<'s> {
     }
 
     fn is_free(&mut self, node: Node) -> bool {
-        let truth = self.truth;
-        *self.is_free.entry(node).or_insert_with(|| is_outside(truth, place(node)))
+        let outlines = &self.outlines;
+        *self.is_free.entry(node).or_insert_with(|| outlines.is_outside(place(node)))
     }
 
-    fn is_outside(&self, point: Point2) -> bool {
-        is_outside(self.truth, point)
-    }
-
-    /// Counts one query per outline.
-    fn count_queries(&self) {
-        self.queries.set(self.queries.get() + self.truth.surfaces.contours().count());
-    }
-
-    /// True if the line between two points does not cross an outline.
-    fn is_open(&self, start: Point2, end: Point2) -> bool {
-        self.count_queries();
-        let line = Segment { start, end };
-        let mut surfaces = self.truth.surfaces.contours();
-        surfaces.all(|contour| contour.distance(start) > (end - start).norm() || crosses_nothing(contour, &line))
+    /// True if the line between two neighbouring nodes crosses no outline.
+    fn are_joined(&mut self, one: Node, other: Node) -> bool {
+        let (first, last) = (one.min(other), one.max(other));
+        let outlines = &self.outlines;
+        *self.is_open.entry((first, last)).or_insert_with(|| outlines.is_open(place(first), place(last)))
     }
 
     /// True if the platform has a clear pose with the base of a whisker within half a cell's diagonal of the node.
@@ -203,47 +187,127 @@ impl<'s> Search<'s> {
             return known;
         }
         let base = place(node);
-        let mut headings = (0..HEADINGS).map(|index| TAU * f64::from(index) / f64::from(HEADINGS));
-        let found = headings.any(|heading| self.has_pose(base, heading));
+        let found = self.mounts.iter().any(|corners| self.has_heading(base, corners));
         self.has_base.insert(node, found);
         found
     }
 
+    /// True if the platform has a clear pose with this base of a whisker at any sampled heading.
+    fn has_heading(&self, base: Point2, corners: &[Vector2; 4]) -> bool {
+        const STEP: f64 = TAU / HEADINGS as f64;
+        let middle = corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner / 4.0);
+        // A footprint that was reduced to a point has no sides.
+        let inner_radius = Some(inner_radius(&corners.map(Point2::from))).filter(|radius| radius.is_finite());
+        let inner_radius = inner_radius.unwrap_or_default();
+        let mut index = 0;
+        while index < HEADINGS {
+            let heading = f64::from(index) * STEP;
+            // The middle of the footprint moves by no more than its arc. So it stays that deep for some headings.
+            let depth = self.outlines.depth(base + rotate(middle, heading), inner_radius);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of headings")]
+            let blocked = (depth / (middle.norm() * STEP)).floor().min(f64::from(HEADINGS)) as u32;
+            if depth > 0.0 {
+                index += 1 + blocked;
+                continue;
+            }
+            if self.is_clear(base, corners, heading) {
+                return true;
+            }
+            index += 1;
+        }
+        false
+    }
+
     /// True if the platform with this `heading` (rad) and a base of a whisker at this point is clear of all solids.
     fn has_pose(&self, base: Point2, heading: f64) -> bool {
-        self.mounts.iter().any(|corners| {
-            self.count_queries();
-            let corners = corners.map(|corner| base + rotate(corner, heading));
-            // The reduced footprint does not contain the base, and a thin wall could separate them.
-            is_clear(self.truth, &corners) && self.is_open(base, middle_of(&corners))
+        self.mounts.iter().any(|corners| self.is_clear(base, corners, heading))
+    }
+
+    /// True if a footprint with these corners relative to the base is clear of all solids.
+    fn is_clear(&self, base: Point2, corners: &[Vector2; 4], heading: f64) -> bool {
+        let corners = corners.map(|corner| base + rotate(corner, heading));
+        // The reduced footprint does not contain the base, and a thin wall could separate them.
+        self.outlines.are_clear_of(&corners) && self.outlines.is_open(base, middle_of(&corners))
+    }
+}
+
+/// The outlines of all solids, found by their bounding boxes.
+struct Outlines<'s> {
+    contours: Vec<&'s Contour>,
+    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+}
+
+impl<'s> Outlines<'s> {
+    fn new(truth: &'s Truth) -> Self {
+        let contours: Vec<_> = truth.surfaces.contours().collect();
+        let of_contour = |(index, contour): (usize, &&Contour)| {
+            let BoundingBox { min, max } = contour.bounding_box();
+            GeomWithData::new(Rectangle::from_corners(min.into(), max.into()), index)
+        };
+        Self { boxes: RTree::bulk_load(contours.iter().enumerate().map(of_contour).collect()), contours }
+    }
+
+    /// The contours whose bounding boxes meet the box around some points, within the rounding error.
+    fn near(&self, points: &[Point2]) -> impl Iterator<Item = &'s Contour> {
+        let corner = |infinite: f64| Point2::new(infinite, infinite);
+        let min = points.iter().fold(corner(f64::INFINITY), |min, point| min.inf(point));
+        let max = points.iter().fold(corner(f64::NEG_INFINITY), |max, point| max.sup(point));
+        let margin = Vector2::new(2.0 * ROUNDING, 2.0 * ROUNDING);
+        let around = AABB::from_corners((min - margin).into(), (max + margin).into());
+        self.boxes.locate_in_envelope_intersecting(around).filter_map(|of| self.contours.get(of.data).copied())
+    }
+
+    fn is_outside(&self, point: Point2) -> bool {
+        self.near(&[point]).all(|contour| !contour.contains(point))
+    }
+
+    /// True if the line between two points does not cross an outline.
+    fn is_open(&self, start: Point2, end: Point2) -> bool {
+        let line = Segment { start, end };
+        self.near(&[start, end]).all(|contour| crosses_nothing(contour, &line))
+    }
+
+    /// The distance (m) by which a point may move and remain in a solid, or as near to an outline as `radius` (m). Not positive if it is neither.
+    fn depth(&self, point: Point2, radius: f64) -> f64 {
+        let reach = Vector2::new(radius, radius);
+        let depth = |contour: &Contour| {
+            let distance = contour.distance(point);
+            let near = radius - ROUNDING - distance;
+            if contour.contains(point) { near.max(distance) } else { near }
+        };
+        self.near(&[point - reach, point + reach]).map(depth).fold(0.0, f64::max)
+    }
+
+    /// True if a convex polygon, given counter-clockwise, is clear of all solids.
+    fn are_clear_of(&self, corners: &[Point2; 4]) -> bool {
+        let middle = middle_of(corners);
+        let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
+        let inner_radius = inner_radius(corners);
+        self.near(corners).all(|contour| {
+            let distance = contour.distance(middle);
+            if distance > radius {
+                return !contour.contains(middle);
+            }
+            // Most poses in a narrow gap end here: the polygon contains a point of the outline.
+            if distance < inner_radius - ROUNDING {
+                return false;
+            }
+            let mut sides = sides(corners).map(|side| crosses_nothing(contour, &side));
+            !contour.contains(middle) && sides.all(|clear| clear) && !is_within(corners, contour.point_at(0.0))
         })
     }
 }
 
-fn is_outside(truth: &Truth, point: Point2) -> bool {
-    truth.surfaces.contours().all(|contour| !contour.contains(point))
+fn sides(corners: &[Point2; 4]) -> impl Iterator<Item = Segment> + use<> {
+    let corners = *corners;
+    (0..4).map(move |side| Segment { start: corners[side], end: corners[(side + 1) % 4] })
 }
 
-/// True if a convex polygon, given counter-clockwise, is clear of all solids.
-fn is_clear(truth: &Truth, corners: &[Point2; 4]) -> bool {
+/// The distance (m) of the middle of a convex polygon, given counter-clockwise, from its nearest side.
+fn inner_radius(corners: &[Point2; 4]) -> f64 {
     let middle = middle_of(corners);
-    let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
-    let sides = || (0..4).map(|side| Segment { start: corners[side], end: corners[(side + 1) % 4] });
     let from_side = |side: Segment| (side.end - side.start).normalize().perp(&(middle - side.start));
-    let inner_radius = sides().map(from_side).fold(f64::INFINITY, f64::min);
-    truth.surfaces.contours().all(|contour| {
-        let distance = contour.distance(middle);
-        if distance > radius {
-            return !contour.contains(middle);
-        }
-        // Most poses in a narrow gap end here: the polygon contains a point of the outline.
-        if distance < inner_radius - ROUNDING {
-            return false;
-        }
-        let sides = sides();
-        let mut sides = sides.map(|side| crosses_nothing(contour, &side));
-        !contour.contains(middle) && sides.all(|clear| clear) && !is_within(corners, contour.point_at(0.0))
-    })
+    sides(corners).map(from_side).fold(f64::INFINITY, f64::min)
 }
 
 fn middle_of(corners: &[Point2; 4]) -> Point2 {

@@ -1,9 +1,11 @@
 //! All metrics of a run.
 
+use super::coverage::{coverage_of, outline_shares, traced_outlines};
+use super::reach::out_of_reach_of;
 use super::{
     Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
-    Passage, Response, RetrievalFigures, StateShare, Tip, axis_error, body_path, coverage, hausdorff, object_coverage,
-    out_of_reach, outline_coverages, responses, state_shares, tips,
+    Passage, Response, RetrievalFigures, StateShare, Tip, axis_error, body_path, hausdorff, object_coverage, responses,
+    state_shares, tips,
 };
 use crate::run::Run;
 use vibrissa_runtime::rig::Rig;
@@ -18,13 +20,13 @@ pub struct Score {
     pub error: Option<ErrorFigures>,
     /// The tip estimate with the largest error. `None` without recorded tips.
     pub largest_error: Option<Tip>,
-    /// The [traced share of the reference](coverage), 0 to 1.
+    /// The [traced share of the reference](super::coverage), 0 to 1.
     pub coverage: f64,
     /// The traced share of the [object whose loop closed](object_coverage), 0 to 1.
     pub object_coverage: f64,
-    /// The [traced share of each outline](outline_coverages) of the reference, 0 to 1.
+    /// The [traced share of each outline](super::traced) of the reference, 0 to 1.
     pub outline_coverages: Vec<f64>,
-    /// The share of the reference (0 to 1) that was not traced and is certainly [out of reach](out_of_reach).
+    /// The share of the reference (0 to 1) that was not traced and is certainly [out of reach](super::out_of_reach).
     pub out_of_reach: f64,
     /// The passage through a tunnel. `None` without one.
     pub passage: Option<Passage>,
@@ -51,7 +53,7 @@ pub struct Score {
     pub inclination: Option<InclinationFigures>,
     /// How perception followed the bends of whiskers.
     pub responses: Vec<Response>,
-    /// Wall time of the control ticks. `None` without ticks.
+    /// Processor time of the control ticks. `None` without ticks.
     pub latency: Option<Latency>,
 }
 
@@ -63,15 +65,16 @@ impl Score {
         let tips = tips(&run.trace, &truth.surfaces, rig);
         let last_tip = tips.iter().max_by_key(|tip| tip.tick).map(|tip| tip.tip_world);
         let path = body_path(&run.trace.ticks);
-        let outlines = outline_coverages(&estimate, &truth.reference);
+        let traced = traced_outlines(&estimate, &truth.reference);
+        let outlines = outline_shares(&traced, &truth.reference);
         Self {
             time: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
             error: ErrorFigures::of(&tips),
             largest_error: tips.iter().max_by(|a, b| a.error.total_cmp(&b.error)).copied(),
-            coverage: coverage(&estimate, &truth.reference),
+            coverage: coverage_of(&traced, &truth.reference),
             object_coverage: object_coverage(&outlines, last_tip, &truth.reference),
             outline_coverages: outlines,
-            out_of_reach: out_of_reach(&estimate, truth, rig) / truth.reference.length(),
+            out_of_reach: out_of_reach_of(&traced, truth, rig) / truth.reference.length(),
             passage: Passage::of((&run.trace, &tips, &estimate), &truth.axes, &truth.reference, rig),
             hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),

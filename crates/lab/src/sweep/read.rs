@@ -16,7 +16,7 @@ const SCENES: &str = "[{family: convex-corner, trials: 100}]";
 const POLICIES: &str = "[../policies/vibrissa.fsm]";
 const VALUES: &str = "[2 cm/s, 5 cm/s]";
 
-/// The most trials of one source of scenes, and the most runs of a sweep. A merge holds all results in memory.
+/// The most trials of one source of scenes, and the most runs of a sweep. A merge holds the figures of all results in memory.
 const MAX_RUNS: u64 = 1_000_000;
 
 /// Reads a sweep. The list of errors is not empty and in the order of the text.

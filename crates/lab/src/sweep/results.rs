@@ -1,7 +1,7 @@
 //! A file of results that grows line by line. An interrupted sweep is resumed from it.
 
 use crate::results::Document;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 use super::header::Header;
 use super::line::read_line;
 use super::lines::{LINE_LIMIT, Lines};
+use super::shard::run_hash;
 use crate::results::{Ending, Figures, Provenance};
 use crate::sweep::Sweep;
 use vibrissa_text::file;
@@ -87,9 +88,28 @@ impl ResultsError {
     }
 }
 
-/// The indices of a sweep's runs by their keys.
-pub(super) fn indices(sweep: &Sweep) -> HashMap<String, u64> {
-    sweep.runs().map(|run| (run.key(), run.index)).collect()
+/// The indices of a sweep's runs by the hashes of their keys, ascending. The keys of a million runs would need ten times as much memory.
+#[derive(Debug)]
+pub(super) struct Indices<'s> {
+    sweep: &'s Sweep,
+    by_hash: Vec<(u64, u64)>,
+}
+
+impl<'s> Indices<'s> {
+    pub(super) fn new(sweep: &'s Sweep) -> Self {
+        let mut by_hash: Vec<_> = sweep.runs().map(|run| (run_hash(&run.key()), run.index)).collect();
+        by_hash.sort_unstable();
+        Self { sweep, by_hash }
+    }
+
+    /// The index of the run with this key. `None` if the sweep has none.
+    pub(super) fn get(&self, key: &str) -> Option<u64> {
+        let hash = run_hash(key);
+        let from = self.by_hash.partition_point(|&(before, _)| before < hash);
+        let same = self.by_hash.get(from..)?.iter().take_while(|&&(found, _)| found == hash);
+        let mut same = same.map(|&(_, index)| index);
+        same.find(|&index| self.sweep.run(index).is_some_and(|run| run.key() == key))
+    }
 }
 
 /// A file of results that is open for writing.
@@ -112,13 +132,13 @@ impl Results {
         provenance: &Provenance,
         sweep: &Sweep,
     ) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
-        let indices = indices(sweep);
+        let indices = Indices::new(sweep);
         let mut there = BTreeMap::new();
         let differs = |found: &Header| difference(found, header);
         let results = Self::open_with(path, header, provenance, differs, |line| {
             let (key, figures) = read_line(line).map_err(|cause| cause.to_string())?;
             let index = indices.get(&key).filter(|_| header.shard.has(&key));
-            let index = *index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
+            let index = index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
             let before = there.insert(index, figures);
             if is_settled(before.as_ref()) { Err(format!("the run `{key}` occurs a second time")) } else { Ok(()) }
         })?;

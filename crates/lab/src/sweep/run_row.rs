@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::header::Header;
 use super::lines::Lines;
-use super::results::{self, ResultsError};
+use super::results::{Indices, ResultsError};
 use super::{Sweep, SweepRun};
 use crate::results::{Ending, LargestError, figure_in};
 use vibrissa_declare::figures::Metric;
@@ -55,12 +55,12 @@ pub fn run_rows(sweep: &Sweep, path: &Path, most: usize) -> Result<Vec<Vec<RunRo
     let file = file::open(path).map_err(ResultsError::file(path))?;
     let mut lines = Lines::new(path, &file);
     lines.header::<Header>()?;
-    let indices = results::indices(sweep);
+    let indices = Indices::new(sweep);
     let mut groups: BTreeMap<_, BTreeMap<u64, RunRow>> = BTreeMap::new();
     while let Some((line, text)) = lines.next()? {
         let wrong = |cause: String| ResultsError::Line { path: path.to_owned(), line, cause };
         let row: RunRow = serde_json::from_str(&text).map_err(|cause| wrong(cause.to_string()))?;
-        let run: Option<SweepRun<'_>> = indices.get(&row.key).and_then(|&index| sweep.run(index));
+        let run: Option<SweepRun<'_>> = indices.get(&row.key).and_then(|index| sweep.run(index));
         let run = run.ok_or_else(|| wrong(format!("there is no run `{}` in the sweep", row.key)))?;
         let rows = groups.entry(run.group()).or_default();
         rows.insert(row.trial, row);

@@ -50,7 +50,7 @@ pub(super) fn run_name(key: &str) -> String {
 }
 
 /// The hash of a run's key.
-fn run_hash(key: &str) -> u64 {
+pub(super) fn run_hash(key: &str) -> u64 {
     Sha256::digest(key).iter().take(8).fold(0, |hash, &byte| hash << 8 | u64::from(byte))
 }
 

@@ -4,8 +4,10 @@ use sha2::{Digest, Sha256};
 use vibrissa_mujoco::mjcf;
 use vibrissa_runtime::control::BindError;
 use vibrissa_runtime::rig::Rig;
+use vibrissa_world::geometry::{Piece, Point2};
 use vibrissa_world::physics::Physics;
 use vibrissa_world::scene::{Scene, WorldKind, WorldSetup};
+use vibrissa_world::solid::Solid;
 use vibrissa_world::world::{Disturbed, Pruning, World};
 
 use super::simulators::{Simulator, SimulatorError, Surroundings};
@@ -87,7 +89,12 @@ fn mujoco_version() -> &'static str {
 /// The MuJoCo model of the true array of a scene.
 #[must_use]
 pub fn model(scene: &Scene) -> String {
-    let Scene { rig, physics, solids, start, .. } = scene;
+    model_among(scene, &scene.solids)
+}
+
+/// The MuJoCo model of the true array of a scene among these solids.
+fn model_among(scene: &Scene, solids: &[Solid]) -> String {
+    let Scene { rig, physics, start, .. } = scene;
     match scene.true_array() {
         Some(array) => mjcf(&array.rig, &array.physics(physics), solids, *start),
         None => mjcf(rig, physics, solids, *start),
@@ -95,7 +102,7 @@ pub fn model(scene: &Scene) -> String {
 }
 
 /// A hash of everything except scenario and policy that a run in a world depends on: the versions of this program and
-/// of the simulator, the model, and the pruning.
+/// of the simulator, the model or the surfaces, and the pruning.
 #[must_use]
 pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     let engine = (Simulator::of(world.kind).version)().unwrap_or(world.kind.name());
@@ -104,9 +111,22 @@ pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
-    // The model has the mechanics of the rig, the solids and the start, for every world. The values of the scenario that
-    // are not in it are in the hash of the scenario, and their defaults change only with the version.
-    hash.update(model(scene));
+    // The model has the mechanics of the rig, the solids and the start. The values of the scenario that are not in it are
+    // in the hash of the scenario, and their defaults change only with the version.
+    match world.kind {
+        WorldKind::Mujoco => hash.update(model(scene)),
+        // It simulates the surfaces, not the convex parts of the model.
+        WorldKind::QuasiStatic => {
+            hash.update(model_among(scene, &[]));
+            for piece in scene.solids.iter().flat_map(|solid| solid.surface().pieces()) {
+                let [Point2 { coords: a }, Point2 { coords: b }] = [piece.start(), piece.end()];
+                let shape = if let Piece::Arc(arc) = piece { [arc.radius, arc.sweep] } else { [0.0; 2] };
+                for number in [a.x, a.y, b.x, b.y].into_iter().chain(shape) {
+                    hash.update(number.to_le_bytes());
+                }
+            }
+        }
+    }
     hash.update([u8::from(world.prune)]);
     hash.update(scene.physics.calm_step.to_le_bytes());
     hash.finalize().into()

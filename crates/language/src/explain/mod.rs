@@ -112,7 +112,7 @@ impl Explained {
 /// # Errors
 /// Those of [`compile`](super::compile).
 pub fn explain(source: &Source) -> Result<Explained, Vec<Diagnostic>> {
-    let (source, files, lowered) = super::front(source, super::load(source))?;
+    let (source, files, lowered) = super::front(source, super::load(source), super::Analysis::Whole)?;
     let builder = Builder { program: &lowered.program, source: &source, origins: &lowered.origins };
     let explained = |written: &[ast::Transition], compiled: &[vibrissa_runtime::machine::Transition]| {
         let both = written.iter().zip(compiled);

@@ -5,6 +5,7 @@ pub(crate) mod coordinates;
 mod pose;
 
 pub use angle::{turn_between, wrap};
+pub(crate) use pose::Frame;
 pub use pose::{Pose, perpendicular, rotate, unit};
 
 /// A point in the plane (m).

@@ -81,6 +81,27 @@ impl Pose {
     }
 }
 
+/// A frame with the sine and cosine of its heading, for many points.
+#[derive(Copy, Clone, Debug)]
+pub(crate) struct Frame {
+    pub(crate) pose: Pose,
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+}
+
+impl Frame {
+    pub(crate) fn new(pose: Pose) -> Self {
+        let (sine, cosine) = math::sin_cos(pose.heading);
+        Self { pose, sine, cosine }
+    }
+
+    /// Transforms a point of this frame to the world frame, as [`Pose::point_to_world`].
+    pub(crate) fn point_to_world(&self, point: Point2) -> Point2 {
+        let Self { pose, sine, cosine } = self;
+        pose.position + Vector2::new(cosine * point.x - sine * point.y, sine * point.x + cosine * point.y)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@ mod senses;
 
 use std::sync::Arc;
 
-use crate::geometry::{Point2, Pose};
+use crate::geometry::{Frame, Point2, Pose};
 use crate::machine::{ContactEstimatorKind, Keypoints, Mark, PositionContour};
 use crate::math;
 use crate::rig::{Platform, Rig, Vibration, Whisker};
@@ -257,16 +257,16 @@ impl Perception {
         (self.body, self.measured) = (Pose::UNKNOWN, Pose::UNKNOWN);
         for sample in samples {
             let ago = math::max(self.time - sample.time, 0.0);
-            let body = self.motions.as_ref().map_or(sample.body, |motions| motions.pose(sample, ago));
+            let body = Frame::new(self.motions.as_ref().map_or(sample.body, |motions| motions.pose(sample, ago)));
             for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
                 let offset = self.offsets.as_ref().map_or(0.0, |offsets| offsets.value(index));
-                let misfit = whisker.take(&sample.whiskers[index], offset, body);
+                let misfit = whisker.take(&sample.whiskers[index], offset, &body);
                 if let Some((motions, misfit)) = self.motions.as_mut().zip(misfit) {
                     motions.add(&misfit);
                 }
             }
             if sample.body.is_finite() {
-                (self.body, self.measured) = (body, sample.body);
+                (self.body, self.measured) = (body.pose, sample.body);
             }
         }
         let pose_deviation = self.motions.as_deref().map(Motions::pose_deviation).unwrap_or_default();
@@ -278,9 +278,12 @@ impl Perception {
         if !is_measured && self.kept_for > 0.0 && self.pose_silent_for <= self.kept_for {
             (self.body, self.at_effect) = (last_body, last_at_effect);
         }
+        let body = Frame::new(self.body);
+        let is_same = self.at_effect.heading.to_bits() == self.body.heading.to_bits();
+        let at_effect = if is_same { Frame { pose: self.at_effect, ..body } } else { Frame::new(self.at_effect) };
         for whisker in &mut self.whiskers {
             whisker.end(waited);
-            whisker.update(self.body, self.at_effect, is_measured, pose_deviation);
+            whisker.update(&body, &at_effect, is_measured, pose_deviation);
         }
         for contour in &mut self.contours {
             contour.begin();

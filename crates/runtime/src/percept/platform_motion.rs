@@ -148,17 +148,19 @@ impl PlatformMotion {
             self.known = 0;
         }
         let aim = self.command.velocity_world.push(self.command.yaw_rate);
-        for _ in 0..self.steps {
-            let next = (self.newest + 1) % MEMORY;
-            for servo in &mut self.servos {
-                let motion = servo.speed.component_mul(&servo.behind)
-                    + aim.component_mul(&servo.behind.map(|behind| self.step - behind));
-                servo.speed =
-                    servo.speed.component_mul(&servo.left) + aim.component_mul(&servo.left.map(|left| 1.0 - left));
-                servo.motions[next] = servo.motions[self.newest] + motion;
+        let (step, steps, first) = (self.step, self.steps, self.newest);
+        for servo in &mut self.servos {
+            let by_aim = aim.component_mul(&servo.behind.map(|behind| step - behind));
+            let gained = aim.component_mul(&servo.left.map(|left| 1.0 - left));
+            let (mut newest, mut sum) = (first, servo.motions[first]);
+            for _ in 0..steps {
+                newest = if newest + 1 == MEMORY { 0 } else { newest + 1 };
+                sum += servo.speed.component_mul(&servo.behind) + by_aim;
+                servo.speed = servo.speed.component_mul(&servo.left) + gained;
+                servo.motions[newest] = sum;
             }
-            self.newest = next;
         }
+        self.newest = (first + steps) % MEMORY;
         self.known = (self.known + self.steps).min(MEMORY);
     }
 
@@ -171,11 +173,13 @@ impl PlatformMotion {
         }
         let turn = turn_between(before.heading, pose.heading);
         let measured = (pose.position - before.position).push(turn);
+        let ends: [(usize, usize); DELAYS] = std::array::from_fn(|delay| {
+            let back = delay * DELAY_STEPS;
+            (earlier(self.newest, back), earlier(self.newest, back + self.steps))
+        });
         for (servo, costs) in self.servos.iter().zip(&mut self.costs) {
-            for (delay, cost) in costs.iter_mut().enumerate() {
-                let back = delay * DELAY_STEPS;
-                let expected =
-                    servo.motions[earlier(self.newest, back)] - servo.motions[earlier(self.newest, back + self.steps)];
+            for ((end, start), cost) in ends.iter().zip(costs) {
+                let expected = servo.motions[*end] - servo.motions[*start];
                 let missing = measured - expected;
                 let squared = missing.xy().norm_squared() + math::square(ARM * missing.z);
                 *cost = *cost * REMEMBERED + squared;

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::geometry::{Point2, Pose, Vector2, rotate, wrap};
+use crate::geometry::{Frame, Point2, Pose, Vector2, rotate, wrap};
 use crate::machine::{ContourVector, Keypoints, Mark};
 use crate::math;
 use crate::rig::{Sensing, Whisker};
@@ -149,7 +149,7 @@ impl PerceivedWhisker {
 
     /// Adds a reading with this `offset` (rad) beyond that of the calibration, sampled with the platform at `body`.
     /// Returns its misfit with an expected contact.
-    pub(super) fn take(&mut self, reading: &Reading, offset: f64, body: Pose) -> Option<Misfit> {
+    pub(super) fn take(&mut self, reading: &Reading, offset: f64, body: &Frame) -> Option<Misfit> {
         let measured = reading.base_angle - self.offset;
         let base_angle = measured - offset;
         self.base_angle.take(base_angle);
@@ -165,7 +165,7 @@ impl PerceivedWhisker {
         } else if self.sensing.estimation.noise {
             self.noise.take(reading.base_angle);
         }
-        if is_valid && body.is_finite() {
+        if is_valid && body.pose.is_finite() {
             self.lost = 0;
             self.estimator.take(&Reading { base_angle, ..*reading }, self.base(body));
             return self.estimator.misfit();
@@ -212,9 +212,9 @@ impl PerceivedWhisker {
     }
 
     /// The position of the base and the direction of the undeflected shaft, with the platform at `body`.
-    fn base(&self, body: Pose) -> Pose {
+    fn base(&self, body: &Frame) -> Pose {
         let position = body.point_to_world(self.base_body.into());
-        Pose { position, heading: body.heading + self.direction_body }
+        Pose { position, heading: body.pose.heading + self.direction_body }
     }
 
     /// Ends a tick of this `period` (s), after its readings.
@@ -225,7 +225,7 @@ impl PerceivedWhisker {
     /// Updates pose and contact of the whisker, with the platform at `body` and these errors of poses. The platform is at
     /// `at_effect` when the next command takes effect. A tick without a valid reading, or without a measured pose, has no
     /// contact.
-    pub(super) fn update(&mut self, body: Pose, at_effect: Pose, is_measured: bool, pose_deviation: PoseDeviation) {
+    pub(super) fn update(&mut self, body: &Frame, at_effect: &Frame, is_measured: bool, pose_deviation: PoseDeviation) {
         let base = self.base(body);
         self.base_at_effect = self.base(at_effect);
         (self.base_world, self.yaw) = (base.position, base.heading);
@@ -235,7 +235,7 @@ impl PerceivedWhisker {
         if pose_deviation != PoseDeviation::default()
             && let Some(contact) = &mut self.contact
         {
-            contact.add_pose_errors(body, pose_deviation);
+            contact.add_pose_errors(body.pose, pose_deviation);
         }
         self.update_noise();
         let is_free = self.contact.is_none() && !self.is_touching() && self.largest < self.contact_threshold;

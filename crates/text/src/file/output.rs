@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Write, stderr, stdout};
 use std::path::{Path, PathBuf};
 
-use super::replace::replace;
+use super::replace::replace_with;
 
 /// An output file of a command. The command neither reads it nor writes another output to it.
 /// [`CommandFiles`](super::CommandFiles) creates outputs.
@@ -96,13 +96,20 @@ impl Output {
     /// # Errors
     /// [`OutputError::Unwritable`].
     pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
-        let content = content.as_ref();
+        self.write_with(|out| out.write_all(content.as_ref()))
+    }
+
+    /// Writes a content that `write` writes piece by piece.
+    ///
+    /// # Errors
+    /// [`OutputError::Unwritable`], also with an error of `write`. A regular file then keeps its old content.
+    pub fn write_with(self, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), OutputError> {
         let Self { argument, path, method } = self;
         let written = match method {
-            Method::Replace => replace(&path, content),
-            Method::Open(mut file) => file.write_all(content),
-            Method::Stream(Stream::Output) => stdout().write_all(content).and_then(|()| stdout().flush()),
-            Method::Stream(Stream::Error) => stderr().write_all(content),
+            Method::Replace => replace_with(&path, write),
+            Method::Open(mut file) => write(&mut file),
+            Method::Stream(Stream::Output) => write(&mut stdout()).and_then(|()| stdout().flush()),
+            Method::Stream(Stream::Error) => write(&mut stderr()),
         };
         written.map_err(|cause| OutputError::Unwritable { argument, path, cause })
     }

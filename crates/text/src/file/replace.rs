@@ -1,7 +1,7 @@
 //! Atomic replacement of a file's content.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{ErrorKind, Result, Write};
+use std::io::{BufWriter, ErrorKind, Result, Write};
 use std::path::Path;
 
 use super::identity::{folder, resolve_links};
@@ -22,6 +22,11 @@ const RANDOM: usize = 12;
 /// The file or its folder may not be written, or the disk is full. Then the old content is there. If only the
 /// synchronisation of the folder failed, the new content may be there.
 pub fn replace(path: &Path, content: &[u8]) -> Result<()> {
+    replace_with(path, |file| file.write_all(content))
+}
+
+/// The same with a content that `write` writes piece by piece.
+pub(super) fn replace_with(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     let path = resolve_links(path)?;
     let folder = folder(&path);
     // Renaming does not ask for permission to write the file. Opening does, and changes nothing.
@@ -35,7 +40,10 @@ pub fn replace(path: &Path, content: &[u8]) -> Result<()> {
     if let Some(old) = old {
         keep_mode(&old, new.as_file())?;
     }
-    new.write_all(content)?;
+    let mut buffered = BufWriter::new(&mut new);
+    write(&mut buffered)?;
+    buffered.flush()?;
+    drop(buffered);
     new.as_file().sync_all()?;
     let temporary = new.into_temp_path();
     fs::rename(&temporary, &path)?;

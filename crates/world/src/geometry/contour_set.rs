@@ -62,6 +62,12 @@ impl ContourSet {
         self.contours().fold(f64::INFINITY, |within, contour| contour.distance_within(point, within))
     }
 
+    /// True if a point is at most `distance` (m) away from a contour.
+    #[must_use]
+    pub fn is_within(&self, distance: f64, point: Point2) -> bool {
+        self.contours().any(|contour| contour.is_within(distance, point))
+    }
+
     /// The bounding box of all contours.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {

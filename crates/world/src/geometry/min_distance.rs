@@ -19,42 +19,70 @@ pub fn min_distance<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
     within: f64,
     distance: impl Fn(&T) -> f64,
 ) -> f64 {
-    let mut least = within;
-    descend(tree.root(), &point.into(), &mut least, &distance);
-    least
+    min_distance_down_to(f64::NEG_INFINITY, tree, point, within, distance)
 }
 
-fn descend<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
-    node: &ParentNode<T>,
-    point: &[f64; 2],
-    least: &mut f64,
-    distance: &impl Fn(&T) -> f64,
-) {
-    let is_near = |apart: f64, least: f64| apart <= (least + SLACK) * (least + SLACK);
-    let mut nearest: Option<(f64, &ParentNode<T>)> = None;
-    for child in node.children() {
-        match child {
-            RTreeNode::Leaf(leaf) => {
-                if is_near(leaf.envelope().distance_2(point), *least) {
-                    *least = least.min(distance(leaf));
+/// The same for a caller that needs no distance below `enough` (m). The result is exact above it. Below it, the result is
+/// any distance of an object that is at most `enough`.
+pub fn min_distance_down_to<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
+    enough: f64,
+    tree: &RTree<T>,
+    point: Point2,
+    within: f64,
+    distance: impl Fn(&T) -> f64,
+) -> f64 {
+    let mut search = Search { point: point.into(), least: within, enough, distance };
+    search.descend(tree.root());
+    search.least
+}
+
+struct Search<D> {
+    point: [f64; 2],
+    least: f64,
+    enough: f64,
+    distance: D,
+}
+
+impl<D> Search<D> {
+    fn is_near(&self, apart: f64) -> bool {
+        apart <= (self.least + SLACK) * (self.least + SLACK)
+    }
+
+    fn descend<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(&mut self, node: &ParentNode<T>)
+    where
+        D: Fn(&T) -> f64,
+    {
+        let mut nearest: Option<(f64, &ParentNode<T>)> = None;
+        for child in node.children() {
+            match child {
+                RTreeNode::Leaf(leaf) => {
+                    if self.is_near(leaf.envelope().distance_2(&self.point)) {
+                        self.least = self.least.min((self.distance)(leaf));
+                        if self.least <= self.enough {
+                            return;
+                        }
+                    }
                 }
-            }
-            RTreeNode::Parent(inner) => {
-                let apart = inner.envelope().distance_2(point);
-                if is_near(apart, *least) && nearest.is_none_or(|(nearest, _)| apart < nearest) {
-                    nearest = Some((apart, inner));
+                RTreeNode::Parent(inner) => {
+                    let apart = inner.envelope().distance_2(&self.point);
+                    if self.is_near(apart) && nearest.is_none_or(|(nearest, _)| apart < nearest) {
+                        nearest = Some((apart, inner));
+                    }
                 }
             }
         }
-    }
-    let Some((_, nearest)) = nearest else { return };
-    descend(nearest, point, least, distance);
-    for child in node.children() {
-        if let RTreeNode::Parent(inner) = child
-            && !std::ptr::eq(inner, nearest)
-            && is_near(inner.envelope().distance_2(point), *least)
-        {
-            descend(inner, point, least, distance);
+        let Some((_, nearest)) = nearest else { return };
+        self.descend(nearest);
+        for child in node.children() {
+            if self.least <= self.enough {
+                return;
+            }
+            if let RTreeNode::Parent(inner) = child
+                && !std::ptr::eq(inner, nearest)
+                && self.is_near(inner.envelope().distance_2(&self.point))
+            {
+                self.descend(inner);
+            }
         }
     }
 }

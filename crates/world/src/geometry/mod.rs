@@ -39,7 +39,7 @@ pub use corner::Corner;
 pub use distance::Nearest;
 pub use elliptic_arc::EllipticArc;
 pub use error::ContourError;
-pub use min_distance::min_distance;
+pub use min_distance::{min_distance, min_distance_down_to};
 pub use offset::OffsetError;
 pub use piece::Piece;
 pub use sample::ContourPoint;

@@ -83,7 +83,7 @@ impl TunnelAxis {
     /// The arc length (m) of a point projected on the line. `None` before the beginning of the tunnel and beyond its
     /// end.
     fn arc_length_beside(&self, point: Point2) -> Option<f64> {
-        let along = self.line.nearest(point).arc_length;
+        let (_, along) = self.line.nearest_point(point);
         let is_inside = self.line.is_closed() || (along > 0.0 && along < self.line.length());
         is_inside.then_some(along)
     }
@@ -93,12 +93,13 @@ impl TunnelAxis {
     fn project(&self, point: Point2) -> Point2 {
         let mut projection = point;
         for _ in 0..STEPS {
-            let (left, right) = (self.left.nearest(projection), self.right.nearest(projection));
-            let apart = 0.5 * (left.distance - right.distance);
+            let [left, right] =
+                [&self.left, &self.right].map(|wall| (wall.nearest_point(projection).0, wall.distance(projection)));
+            let apart = 0.5 * (left.1 - right.1);
             // For a point on a wall, the direction from that wall is undefined. It is opposite to that from the other
             // wall.
             let from = |wall: Point2| (projection - wall).try_normalize(0.0).unwrap_or_else(Vector2::zeros);
-            let slope = 0.5 * (from(left.point) - from(right.point));
+            let slope = 0.5 * (from(left.0) - from(right.0));
             if slope.norm_squared() < 1e-6 {
                 break;
             }
