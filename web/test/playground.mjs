@@ -6,8 +6,8 @@ import { browser, checkFit, open, serve, tabTo } from "./browser.mjs";
 
 const [program, folder] = process.argv.slice(2);
 
-/** The visible text of an editor. */
-const text = (page, name) => page.evaluate((name) => document.querySelector(`.cm-content[aria-label="${name}"]`).innerText, name);
+/** The first lines of an editor. */
+const text = (page, name) => page.$$eval(`.cm-content[aria-label="${name}"] .cm-line`, (lines) => lines.slice(0, 20).map((line) => line.textContent).join("\n"));
 
 /** Waits until the score of the run matches. */
 const expectVerdict = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector(".verdict")?.textContent ?? ""), pattern.source);
