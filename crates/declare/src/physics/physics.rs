@@ -31,9 +31,12 @@ pub struct Physics {
     pub penetration_limit: f64,
 }
 
-/// The longest step (s) and contact time constant (s) that suffice with friction. Up to a friction of 0.3 a tip slides
-/// steadily, and a tip that snaps off after sticking penetrates less than the limit.
+/// The longest steps (s) that suffice with friction, and from [`STRONG_FRICTION`] on, where a tip vibrates at the longer one. A tip
+/// then slides steadily, and one that snaps off after sticking penetrates less than the limit.
 const FRICTION_STEP: f64 = 1.0 / 1800.0;
+const STRONG_FRICTION_STEP: f64 = 1.0 / 3600.0;
+const STRONG_FRICTION: f64 = 0.2;
+/// Contact time constant (s) with friction.
 const FRICTION_CONTACT_TIME: f64 = 1.25e-3;
 /// Largest short penetration depth of a tip (m). A tip that stuck snaps off faster than a sliding one.
 const FRICTION_PENETRATION_LIMIT: f64 = 3e-3;
@@ -45,7 +48,8 @@ impl Physics {
         self.friction = friction;
         if friction > 0.0 {
             let period = sample_rate.recip();
-            let steps = (period / self.step.min(FRICTION_STEP) - 1e-9).ceil();
+            let longest = if friction < STRONG_FRICTION { FRICTION_STEP } else { STRONG_FRICTION_STEP };
+            let steps = (period / self.step.min(longest) - 1e-9).ceil();
             self.step = period / steps;
             self.contact_time = self.contact_time.min(FRICTION_CONTACT_TIME);
             self.penetration_limit = self.penetration_limit.max(FRICTION_PENETRATION_LIMIT);
