@@ -5,7 +5,7 @@
 //!
 //! # Where to begin
 //!
-//! A new way to show diagnostics is a file beside the others in `diagnostic`. Every crate reads and writes files through `file`, whose
+//! A new rendering of diagnostics is a file beside the others in `diagnostic`. Every crate reads and writes files through `file`, whose
 //! tests kill it at each system call, so a change there needs one more of them.
 
 pub mod diagnostic;

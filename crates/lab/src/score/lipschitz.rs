@@ -83,13 +83,13 @@ struct Stretch {
     bound: f64,
 }
 
-/// The maximum distance (m) of the places of a line of this `length` (m) from a set of curves, or `floor` if that is
-/// larger. `sample` returns the place at an arc length of the line, with its foot. `along` may return the foot of a place on the
+/// The maximum distance (m) of the positions of a line of this `length` (m) from a set of curves, or `floor` if that is
+/// larger. `sample` returns the position at an arc length of the line, with its foot. `along` may return the foot of a position on the
 /// same curve as a given foot, within a distance along this curve.
 ///
 /// The result is too small by at most `tolerance`. Intervals are bisected depth first, the one with the larger bound
 /// first. Two bounds hold between samples `a` and `b`, and the smaller one counts:
-/// - The distance changes by at most the way: half of the sum of both distances and the length in between.
+/// - The distance changes by at most the detour: half of the sum of both distances and the length in between.
 /// - If both feet are on one curve, the places are as near to the chord of the feet as `a` or `b`, except that both
 ///   curves leave their chords, by at most [`sagitta`]. Where both are almost straight, this bound needs no bisection.
 pub(super) fn maximum(

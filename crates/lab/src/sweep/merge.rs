@@ -28,7 +28,7 @@ pub struct Merged {
     /// The figures of the runs by index.
     pub figures: BTreeMap<u64, Figures>,
     files: Vec<File>,
-    /// The places of the lines of the runs by index.
+    /// The positions of the lines of the runs by index.
     places: BTreeMap<u64, Place>,
 }
 

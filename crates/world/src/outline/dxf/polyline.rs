@@ -36,9 +36,10 @@ fn is_flat(vertices: &[Vertex]) -> bool {
     let [(first, _), .., (last, _)] = vertices else { return true };
     let from_first = |place: [f64; 2]| Vector2::new(place[0] - first[0], place[1] - first[1]);
     // The last vertex may be at the first one.
-    let farthest = vertices.iter().map(|&(place, _)| from_first(place)).fold(from_first(*last), |farthest, place| {
-        if place.norm() > farthest.norm() { place } else { farthest }
-    });
+    let farthest = vertices
+        .iter()
+        .map(|&(place, _)| from_first(place))
+        .fold(from_first(*last), |farthest, place| if place.norm() > farthest.norm() { place } else { farthest });
     vertices.iter().all(|&(place, bulge)| bulge == 0.0 && from_first(place).perp(&farthest) == 0.0)
 }
 
