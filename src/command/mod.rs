@@ -116,7 +116,9 @@ enum Command {
     /// Repeat a recorded run through driver, perception and machine, and compare every result bit for bit
     Replay(replay::ReplayArguments),
     /// Serve the playground that `cargo x playground` has built to this machine
+    // It needs a checkout, so the help of the program leaves it out.
     #[cfg(feature = "live")]
+    #[command(hide = true)]
     Playground(playground::PlaygroundArguments),
     /// Write files for a shell, a manual or the services of a robot
     #[command(subcommand)]
