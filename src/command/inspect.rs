@@ -22,7 +22,7 @@ use vibrissa_text::file::CommandFiles;
 #[derive(Debug, Args)]
 pub(super) struct InspectionOptions {
     /// Stop when a state is entered or a condition holds, and print what each guard is missing: --break Retrieval,
-    /// --break "r0.base_angle > 300 urad". Repeatable. With --live, the run only pauses there
+    /// --break `r0.base_angle > 300 urad`. Repeatable. With --live, the run only pauses there
     #[arg(long = "break", value_name = "STATE|CONDITION")]
     pub(super) breakpoints: Vec<String>,
     /// Write every transition that is taken into this file, with the parts of all guards, as one line of JSON each. The

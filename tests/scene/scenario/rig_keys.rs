@@ -199,7 +199,7 @@ fn with_tables(page: &str) -> String {
             "mismatch" => differences_table(),
             path => keys_table(&format!("{path}.")),
         };
-        text += &format!("\n{table}\n");
+        text.extend(["\n", &table, "\n"]);
         for line in lines.by_ref().skip_while(|line| line.is_empty()) {
             if line.is_empty() {
                 break;

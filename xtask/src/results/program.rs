@@ -35,7 +35,7 @@ fn first_other(root: &Path, program: &str) -> Result<Option<String>, StampError>
     let entries = entries.map_err(unreadable(library))?;
     let modules = entries.iter().map(|entry| format!("{LIBRARY}/{}", entry.file_name().to_string_lossy()));
     // Beside the texts is the list that includes them.
-    let modules = modules.filter(|file| file.ends_with(".fsm"));
+    let modules = modules.filter(|file| Path::new(file).extension().is_some_and(|ending| ending == "fsm"));
     let scenes = BENCH.iter().map(|scene| format!("scenarios/{scene}.yaml"));
     let others = POLICIES.into_iter().chain([PLAUSIBLE]).map(str::to_owned);
     for file in modules.chain(scenes).chain(others) {

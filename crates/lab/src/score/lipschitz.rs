@@ -90,7 +90,7 @@ struct Stretch {
 /// The result is too small by at most `tolerance`. Intervals are bisected depth first, the one with the larger bound
 /// first. Two bounds hold between samples `a` and `b`, and the smaller one counts:
 /// - The distance changes by at most the detour: half of the sum of both distances and the length in between.
-/// - If both feet are on one curve, the places are as near to the chord of the feet as `a` or `b`, except that both
+/// - If both feet are on one curve, the positions are as near to the chord of the feet as `a` or `b`, except that both
 ///   curves leave their chords, by at most [`sagitta`]. Where both are almost straight, this bound needs no bisection.
 pub(super) fn maximum(
     length: f64,
