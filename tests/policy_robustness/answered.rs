@@ -142,7 +142,10 @@ pub(crate) fn is_handled(text: &str) -> bool {
     match chart_svg(&chart) {
         Ok(drawn) => assert!(!drawn.is_empty()),
         Err(large) => {
-            assert!(large.states > DRAWN.0 || large.transitions > DRAWN.1, "a chart that people read is drawn: {large}")
+            assert!(
+                large.states > DRAWN.0 || large.transitions > DRAWN.1,
+                "a chart that people read is drawn: {large}"
+            );
         }
     }
     let bytes = artifact.to_bytes().unwrap();
