@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use vibrissa::built_in::{POLICIES, SCENARIOS, TextFile};
+use vibrissa::built_in::{NAMED_SCENARIOS, POLICIES, SCENARIOS, TextFile};
 use vibrissa::diagnostic::Source;
 use vibrissa::request::{Input, PolicyInput};
 use vibrissa_runtime::machine::ParameterValue;
@@ -84,7 +84,7 @@ impl From<GivenInput<'_>> for Input {
     fn from(given: GivenInput<'_>) -> Self {
         match given {
             GivenInput::Text(text) => Self::Text(text.get().source()),
-            GivenInput::Path(path) => built_in(SCENARIOS, &path).map_or(Self::File(path), Self::BuiltIn),
+            GivenInput::Path(path) => TextFile::named(NAMED_SCENARIOS, &path).map_or(Self::File(path), Self::BuiltIn),
         }
     }
 }
@@ -94,30 +94,21 @@ impl From<GivenPolicy<'_>> for PolicyInput {
         match given {
             GivenPolicy::Text(text) => Self::Text(text.get().source()),
             GivenPolicy::Machine(machine) => Self::Machine(Box::new(machine.get().artifact().clone())),
-            GivenPolicy::Path(path) => built_in(POLICIES, &path).map_or(Self::File(path), Self::BuiltIn),
+            GivenPolicy::Path(path) => TextFile::named(POLICIES, &path).map_or(Self::File(path), Self::BuiltIn),
         }
     }
 }
 
-/// The names of the built-in scenarios, in the order of the bench.
+/// The names of the scenarios of the bench, in its order.
 #[pyfunction]
 pub(crate) fn scenarios() -> Vec<&'static str> {
-    SCENARIOS.iter().map(name).collect()
+    SCENARIOS.iter().map(TextFile::name).collect()
 }
 
 /// The names of the built-in policies.
 #[pyfunction]
 pub(crate) fn policies() -> Vec<&'static str> {
-    POLICIES.iter().map(name).collect()
-}
-
-/// The built-in text that a path without folder and extension names.
-fn built_in(texts: &'static [TextFile], path: &Path) -> Option<&'static TextFile> {
-    texts.iter().find(|file| path == Path::new(name(file)))
-}
-
-fn name(file: &TextFile) -> &'static str {
-    Path::new(file.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or(file.path)
+    POLICIES.iter().map(TextFile::name).collect()
 }
 
 /// Values of parameters: a text with a unit, a number, a bool, or the name of a choice.

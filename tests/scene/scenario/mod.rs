@@ -7,3 +7,4 @@ mod near;
 mod page;
 mod rig_keys;
 mod scenes;
+mod zoo;

@@ -67,7 +67,8 @@ figures! {
     ObjectCoverage: figure(Share, "object_coverage", "the share of the outline of the object whose loop closed that was traced, 0 to 1").always()
         .larger().named("object_coverage").bound(SHARE.0, SHARE.1),
     OutOfReach: figure(Share, "out_of_reach", "the share of the reference that was not traced and that the rig certainly cannot reach, 0 to 1").always(),
-    CoverageInReach: figure(Share, "coverage_in_reach", "the share of the rest of the reference that was traced, 0 to 1").always(),
+    CoverageInReach: figure(Share, "coverage_in_reach", "the share of the rest of the reference that was traced, 0 to 1").always()
+        .larger().named("coverage_in_reach").bound(SHARE.0, SHARE.1),
     Passage: figure(Share, "passage.share", "the share of the tunnel's length that the platform's centre of mass covered between the walls, 0 to 1").always()
         .larger().named("passage").bound(SHARE.0, SHARE.1).column_if_known(70, "passage", Decimals(1)),
     LeftCoverage: figure(Share, "passage.left_coverage", "the share of the left inner side that was traced between the first and the last contact, 0 to 1").always(),

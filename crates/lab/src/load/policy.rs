@@ -8,7 +8,7 @@ use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact, ParameterValue, Progra
 use super::sought::Sought;
 use super::text::{SIZE_LIMIT, name, reason, text};
 use super::{LoadError, Loaded};
-use crate::built_in::{DEFAULT_POLICY, POLICIES, SCENARIOS, TextFile};
+use crate::built_in::{DEFAULT_POLICY, NAMED_SCENARIOS, POLICIES, TextFile};
 use vibrissa_language::chart::Chart;
 use vibrissa_language::{Analysis, Compiled, Library, PolicyTest, gather_and_compile};
 use vibrissa_text::diagnostic::{Diagnostic, Source};
@@ -116,7 +116,7 @@ pub fn policy_for(
 ) -> Result<Loaded<Policy>, LoadError> {
     match (asked, &scene.policy) {
         (Some(path), _) => policy(path, files),
-        (None, Some(_)) if TextFile::named(SCENARIOS, Path::new(&source.name)).is_some() => {
+        (None, Some(_)) if TextFile::named(NAMED_SCENARIOS, Path::new(&source.name)).is_some() => {
             built_in_policy(named_by_built_in(scene))
         }
         (None, Some(PolicyReference { file, settings })) => {

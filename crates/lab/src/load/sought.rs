@@ -10,7 +10,7 @@ use vibrissa_text::file::CommandFiles;
 use super::LoadError;
 use super::scenario::beside;
 use super::text::siblings;
-use crate::built_in::{MISMATCHES, POLICIES, SCENARIOS, TextFile};
+use crate::built_in::{MISMATCHES, NAMED_SCENARIOS, POLICIES, TextFile};
 
 /// What a path is given for. Each kind has built-in texts, which are given by their names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +27,7 @@ impl Sought {
     /// The built-in texts.
     fn built_in(self) -> &'static [TextFile] {
         match self {
-            Self::Scenario => SCENARIOS,
+            Self::Scenario => NAMED_SCENARIOS,
             Self::Policy => POLICIES,
             Self::Mismatch => MISMATCHES,
         }
@@ -45,8 +45,8 @@ impl Sought {
         if TextFile::named(self.built_in(), name).is_some() && !beside.exists() { name.to_owned() } else { beside }
     }
 
-    /// Reads the file at a path. If there is none, the built-in text with this name. A path with a folder or an ending is only
-    /// that of a file.
+    /// Reads the file at a path. If there is none, the built-in text with this name. Any other path is
+    /// only that of a file.
     pub(super) fn bytes(self, path: &Path, limit: usize, files: &mut CommandFiles) -> Result<Vec<u8>, LoadError> {
         let cause = match files.read(path, limit) {
             Ok(bytes) => return Ok(bytes),
@@ -69,8 +69,8 @@ impl Sought {
         let (file, stem) = (path.file_name()?.to_str()?, path.file_stem()?.to_str()?);
         let mut names: Vec<String> = self.built_in().iter().map(|file| file.name().to_owned()).collect();
         // A path with the name of a built-in text means that, wherever the command runs.
-        if names.iter().any(|name| name == stem) {
-            return Some(stem.to_owned());
+        if let Some(file) = self.built_in().iter().find(|file| file.stem() == stem) {
+            return Some(file.name().to_owned());
         }
         let nearest = |name: &str, names: &[String]| suggest(name, names.iter().map(String::as_str)).map(str::to_owned);
         let of_stem = nearest(stem, &names);
