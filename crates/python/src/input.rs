@@ -1,6 +1,6 @@
 //! Scenarios, policies and values of parameters that Python gives.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};

@@ -59,11 +59,14 @@ fn the_radius_scales_the_whole_taper_and_the_tip_radius_the_tip_alone() {
 
 #[test]
 fn friction_shortens_the_steps_of_the_simulation() {
-    let array = with(Property::Friction, 0.1).array(&Rig::default());
-    let physics = array.physics(&Physics::default());
-    let steps = physics.step.recip() / array.rig.sensing.sample_rate;
-    assert!((physics.friction - 0.1).abs() < 1e-15 && steps >= 12.0 - 1e-9 && (steps - steps.round()).abs() < 1e-9);
-    assert_eq!(array.rig.sensing, Rig::default().sensing, "perception does not know it");
+    for (friction, least) in [(0.1, 6.0), (0.2, 12.0), (0.3, 12.0)] {
+        let array = with(Property::Friction, friction).array(&Rig::default());
+        let physics = array.physics(&Physics::default());
+        let steps = physics.step.recip() / array.rig.sensing.sample_rate;
+        assert!((physics.friction - friction).abs() < 1e-15);
+        assert!(steps >= least - 1e-9 && (steps - steps.round()).abs() < 1e-9, "{friction}: {steps}");
+        assert_eq!(array.rig.sensing, Rig::default().sensing, "perception does not know it");
+    }
 }
 
 #[test]
@@ -76,8 +79,8 @@ fn a_mismatch_that_cannot_be_simulated_is_refused() {
     let told = short.check(&rig).unwrap_err().to_string();
     assert!(told.contains("the true `length` of whisker `r0` could be 0 mm, and must be from 1 mm to 1 m"), "{told}");
     let mut light = with(Property::Links, 64.0);
-    light.common.set(Property::Radius, -0.9);
-    light.common.set(Property::Length, -0.02);
+    light.common.set(Property::Radius, -0.99);
+    light.common.set(Property::Length, -0.05);
     assert!(matches!(light.check(&rig), Err(MismatchError::Light { .. })));
     assert_eq!(with(Property::Length, Range { least: -1e-3, greatest: 1e-3 }).check(&rig), Ok(()));
 }
