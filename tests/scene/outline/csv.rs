@@ -52,7 +52,7 @@ fn a_comment_after_a_possible_end_of_a_polygon_merges_nothing_silently() {
         assert!(matches!(&error.fault, OutlineFault::Syntax { reason } if reason.contains("blank line")), "{error}");
         let comments = text.lines().enumerate().filter(|(_, line)| line.contains('#'));
         assert_eq!(error.line, comments.last().map(|(index, _)| index + 1));
-        assert_eq!(areas(&text.replacen("#", "\n#", 1)).unwrap().len(), 2, "with a blank line they are two");
+        assert_eq!(areas(&text.replacen('#', "\n#", 1)).unwrap().len(), 2, "with a blank line they are two");
     }
     assert_eq!(areas("0,0\n10,0\n10,5\n0,5\n# the end\n").unwrap(), [50.0]);
 }
