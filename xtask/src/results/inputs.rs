@@ -329,7 +329,8 @@ mod tests {
     #[test]
     fn the_scenes_of_the_bench_are_those_that_the_program_contains() {
         let built_in = fs::read_to_string(root().join("crates/lab/src/built_in.rs")).unwrap_or_default();
-        let named: Vec<&str> = built_in.split('"').filter(|word| word.starts_with("scenarios/")).collect();
+        let is_scene = |word: &&str| word.starts_with("scenarios/") && word.ends_with(".yaml");
+        let named: Vec<&str> = built_in.split('"').filter(is_scene).collect();
         let scenes: Vec<String> = BENCH.map(|scene| format!("scenarios/{scene}.yaml")).into();
         assert_eq!(named[..BENCH.len()], scenes);
         assert_eq!(named.last(), Some(&PLAUSIBLE));
