@@ -15,8 +15,6 @@ const NO_VERBS: [&str; 20] = [
 /// Verbs that end as other forms do.
 const VERBS: [&str; 12] =
     ["bring", "discuss", "embed", "express", "feed", "focus", "need", "pass", "process", "press", "speed", "string"];
-/// Folders at the root of a machine.
-const ROOTS: [&str; 8] = ["/home/", "/root/", "/tmp/", "/usr/", "/opt/", "/var/", "/mnt/", "/work/"];
 /// Most letters of a subject, so that a list of commits shows it whole.
 const MOST_LETTERS: usize = 100;
 
@@ -41,7 +39,7 @@ fn fault(subject: &str) -> Option<String> {
     let is_no_verb = is_other_form || NO_VERBS.contains(&&*first) || !first.chars().all(char::is_alphabetic);
     let why = if is_no_verb {
         "its first word is no verb in the imperative"
-    } else if ROOTS.iter().any(|root| subject.contains(root)) {
+    } else if subject.split_whitespace().any(is_absolute_path) {
         "it names a path of a machine"
     } else if subject.chars().count() > MOST_LETTERS {
         "it is longer than 100 letters"
@@ -49,6 +47,12 @@ fn fault(subject: &str) -> Option<String> {
         return None;
     };
     Some(format!("`{subject}`: {why}"))
+}
+
+/// True if a word begins at the root of a machine, also behind a quotation mark or a bracket.
+fn is_absolute_path(word: &str) -> bool {
+    let path = word.trim_start_matches(|letter: char| "`'\"(".contains(letter));
+    path.strip_prefix('/').is_some_and(|rest| rest.starts_with(char::is_alphanumeric))
 }
 
 /// The output of git. Empty without git or history.
@@ -69,7 +73,10 @@ mod tests {
         for subject in ["The commands have another number", "Adds a key", "Added a key", "Adding a key", "49: a key"] {
             assert!(fault(subject).is_some_and(|fault| fault.contains("no verb")), "{subject}");
         }
-        assert!(fault("Read /tmp/x again").is_some_and(|fault| fault.contains("path")));
+        for subject in ["Read /a/x again", "Read `/a` again", "Read (/b/c) again"] {
+            assert!(fault(subject).is_some_and(|fault| fault.contains("path")), "{subject}");
+        }
+        assert_eq!(fault("Divide a / b and src/lib.rs"), None);
         assert!(fault(&format!("Add {}", "x".repeat(100))).is_some_and(|fault| fault.contains("letters")));
     }
 }
