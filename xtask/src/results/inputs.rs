@@ -329,7 +329,7 @@ mod tests {
     #[test]
     fn the_scenes_of_the_bench_are_those_that_the_program_contains() {
         let built_in = fs::read_to_string(root().join("crates/lab/src/built_in.rs")).unwrap_or_default();
-        let is_scene = |word: &&str| word.starts_with("scenarios/") && word.ends_with(".yaml");
+        let is_scene = |word: &&str| word.starts_with("scenarios/") && ending(word) == "yaml";
         let named: Vec<&str> = built_in.split('"').filter(is_scene).collect();
         let scenes: Vec<String> = BENCH.map(|scene| format!("scenarios/{scene}.yaml")).into();
         assert_eq!(named[..BENCH.len()], scenes);
