@@ -1,9 +1,9 @@
-//! The controller: perception, machine, steering, and a map if it is asked for.
+//! The controller: perception, machine, steering, and a map if the policy uses it or a caller asks for it.
 
 use std::sync::Arc;
 
 use crate::machine::{Machine, Observer, OnlySimulated, Program, Tick};
-use crate::map::{Map, MapError, MapSettings};
+use crate::map::{Map, MapError, MapSettings, MappedPerception};
 use crate::math;
 use crate::motion::{ServoLead, Steering};
 use crate::percept::{Perception, PerceptionError};
@@ -64,18 +64,23 @@ impl Control {
         let mut perception = Perception::new(rig, &whiskers, &program.contact_estimators)?
             .with_contours(program.keypoints, &program.contours);
         perception.keep_for(KEPT_FOR);
+        let map = if program.uses_map() {
+            Some(Box::new(Map::new(rig, &whiskers, MapSettings::for_rig(rig))?))
+        } else {
+            None
+        };
         Ok(Self {
             perception,
             steering: Steering::new(rig, &whiskers),
             servo_lead: ServoLead::new(rig),
             machine: Machine::new(program),
-            map: None,
+            map,
             command: Command::STOP,
         })
     }
 
-    /// Adds a map of `rig`, which must be the one of this controller. Without a call there is none, and a tick costs no more
-    /// than before. The map never changes a command by itself.
+    /// Gives the controller a map of `rig`, which must be its own rig, with these settings. Without a call there is one only if
+    /// the policy uses it ([`Program::uses_map`]), with the settings for the rig. The map never changes a command by itself.
     ///
     /// # Errors
     /// [`BindError`] if the settings give no map.
@@ -102,7 +107,12 @@ impl Control {
     /// Executes one [`tick`](Self::tick). `observer` receives the guards that are tried and the transitions that are taken.
     pub fn tick_observed(&mut self, samples: &[Sample], observer: &mut impl Observer) -> (Command, Tick) {
         self.perception.update(samples);
-        let tick = self.machine.tick_observed(&mut self.perception, observer);
+        let tick = match &mut self.map {
+            Some(map) => {
+                self.machine.tick_observed(&mut MappedPerception { perception: &mut self.perception, map }, observer)
+            }
+            None => self.machine.tick_observed(&mut self.perception, observer),
+        };
         // After the machine, which records tips.
         if let Some(map) = &mut self.map {
             map.update(&self.perception, self.perception.pose(), self.command);
@@ -116,7 +126,12 @@ impl Control {
     /// Continues with another program of the same policy, such as one with other values of parameters. See
     /// [`Machine::continue_with`].
     pub fn continue_with(&mut self, program: Arc<Program>) {
-        self.machine.continue_with(program, &mut self.perception);
+        match &mut self.map {
+            Some(map) => {
+                self.machine.continue_with(program, &mut MappedPerception { perception: &mut self.perception, map });
+            }
+            None => self.machine.continue_with(program, &mut self.perception),
+        }
     }
 
     /// Tells perception that the platform executes this command instead of that of the newest tick.

@@ -22,7 +22,7 @@ use super::unsound::Unsound;
 pub const MAGIC: [u8; 8] = *b"\x89FSM\r\n\x1a\n";
 /// Number of the format. It covers the layout of [`Artifact`] and of everything in it, including the order of
 /// operations and quantities.
-pub const FORMAT: u32 = 12;
+pub const FORMAT: u32 = 13;
 /// Maximum size of an artifact in bytes. The largest program of the compiler has less than half of them.
 pub const ARTIFACT_LIMIT: usize = 4 << 20;
 

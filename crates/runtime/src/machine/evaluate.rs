@@ -102,6 +102,11 @@ pub(super) fn evaluate<S: Senses>(
             Op::ContourAt { to, contour, a, quantity } => {
                 file.put_vector(to, senses.contour_at(file.index(contour), file.at(a), quantity));
             }
+            Op::Map { to, quantity } => file.put(to, senses.map(quantity)),
+            Op::MapVector { to, quantity } => file.put_vector(to, senses.map_vector(quantity)),
+            Op::MapHolds { to, a, b, question } => {
+                file.put_truth(to, senses.map_holds(question, file.vector(a), file.at(b)));
+            }
             Op::LowPass { to, a, b, memory } => {
                 let filtered = stateful::low_pass(file.memory(memory), senses.time(), file.at(a), file.at(b));
                 let value = file.keep(memory, filtered);
@@ -140,6 +145,8 @@ pub(super) fn evaluate<S: Senses>(
             Op::Record { whisker } => senses.record(file.index(whisker)),
             Op::RecordPosition { contour, a } => senses.record_position(usize::from(contour), file.vector(a)),
             Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
+            Op::GoTo { a, b } => senses.go_to(file.vector(a), file.at(b)),
+            Op::GiveUp => senses.give_up(),
             Op::SteerBodyFacing { along, speed, heading } => {
                 *action = file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading)));
                 has_acted = true;

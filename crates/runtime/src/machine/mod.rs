@@ -48,7 +48,9 @@ pub use parameter::{DESCRIPTION_LIMIT, Parameter, ParameterValue, SetError};
 pub use program::{
     CODE_LIMIT, CONTOUR_LIMIT, Guard, NESTING_LIMIT, OnlySimulated, Program, REGISTER_LIMIT, State, Target, Transition,
 };
-pub use senses::{BodyScalar, ContourVector, Mark, Senses, WhiskerScalar, WhiskerVector};
+pub use senses::{
+    BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, Mark, Senses, WhiskerScalar, WhiskerVector,
+};
 pub use source_map::{Position, SourceMap, StatePosition};
 pub use tick::{Failure, MICROSTEP_LIMIT, Machine, Status, Tick};
 pub use unsound::Unsound;

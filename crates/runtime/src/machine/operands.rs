@@ -79,8 +79,8 @@ impl Index {
 pub enum Effect {
     /// No effect. The result depends only on the operands.
     Pure,
-    /// No effect, but the result depends on perception. Until a tip is recorded, the same operation has the same
-    /// result.
+    /// No effect, but the result depends on perception or on the map. Until a tip is recorded, or the map is told something, the
+    /// same operation has the same result.
     Sensing,
     /// A side effect: it changes memory, jumps, records or gives an action.
     SideEffect,
@@ -99,7 +99,10 @@ impl Op {
             | Self::WhiskerVector { .. }
             | Self::TipAt { .. }
             | Self::LoopClosed { .. }
-            | Self::ContourAt { .. } => Effect::Sensing,
+            | Self::ContourAt { .. }
+            | Self::Map { .. }
+            | Self::MapVector { .. }
+            | Self::MapHolds { .. } => Effect::Sensing,
             Self::LowPass { .. }
             | Self::Pid { .. }
             | Self::Count { .. }
@@ -127,12 +130,29 @@ impl Op {
         }
     }
 
-    /// True if the operation records, marks or gives a command.
+    /// True if the operation reads the map or tells it something.
+    #[must_use]
+    pub fn is_of_map(self) -> bool {
+        matches!(
+            self,
+            Self::Map { .. } | Self::MapVector { .. } | Self::MapHolds { .. } | Self::GoTo { .. } | Self::GiveUp
+        )
+    }
+
+    /// True if the operation changes what later operations of the same tick sense.
+    #[must_use]
+    pub fn changes_senses(self) -> bool {
+        matches!(self, Self::Record { .. } | Self::RecordPosition { .. } | Self::GoTo { .. } | Self::GiveUp)
+    }
+
+    /// True if the operation records, marks, tells the map something or gives a command.
     #[must_use]
     pub fn is_action(self) -> bool {
         matches!(
             self,
-            Self::Record { .. }
+            Self::GoTo { .. }
+                | Self::GiveUp
+                | Self::Record { .. }
                 | Self::RecordPosition { .. }
                 | Self::Mark { .. }
                 | Self::SteerBodyFacing { .. }
@@ -258,8 +278,17 @@ impl Op {
                 visit(Read(2), a);
                 visit(Read(1), b);
             }
-            Self::Time { to } | Self::Body { to, .. } => visit(Write(1), to),
-            Self::BodyPosition { to } => visit(Write(2), to),
+            Self::Time { to } | Self::Body { to, .. } | Self::Map { to, .. } => visit(Write(1), to),
+            Self::BodyPosition { to } | Self::MapVector { to, .. } => visit(Write(2), to),
+            Self::MapHolds { to, a, b, .. } => {
+                visit(Write(1), to);
+                visit(Read(2), a);
+                visit(Read(1), b);
+            }
+            Self::GoTo { a, b } => {
+                visit(Read(2), a);
+                visit(Read(1), b);
+            }
             Self::Whisker { to, whisker, quantity } | Self::WhiskerSize { to, whisker, quantity } => {
                 visit(Write(1), to);
                 visit(Role::Index(Index::of(quantity.is_of_contour())), whisker);
@@ -321,7 +350,7 @@ impl Op {
                 visit(Read(1), speed);
                 visit(Read(1), turn);
             }
-            Self::Jump { .. } | Self::Hold | Self::Stop => {}
+            Self::Jump { .. } | Self::GiveUp | Self::Hold | Self::Stop => {}
         }
     }
 }

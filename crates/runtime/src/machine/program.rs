@@ -242,6 +242,12 @@ impl Program {
             .sum::<usize>()
     }
 
+    /// True if the policy uses a map. The control loop then has one.
+    #[must_use]
+    pub fn uses_map(&self) -> bool {
+        self.code.iter().any(|op| op.is_of_map())
+    }
+
     /// Upper bound of the operations of any tick. It includes the start of a run with its initial state, the maximum
     /// number of transitions with all guards, a fallback transition and all bodies.
     #[must_use]

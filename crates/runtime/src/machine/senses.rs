@@ -42,6 +42,84 @@ pub trait Senses {
 
     /// Records a mark. No readable value depends on marks. The default ignores them.
     fn mark(&mut self, _whisker: usize, _mark: Mark) {}
+
+    /// A scalar of the map. Booleans are 1 and 0. The default has no map, and nothing is known.
+    fn map(&self, _quantity: MapScalar) -> f64 {
+        f64::NAN
+    }
+
+    /// A vector of the map. The default has no map.
+    fn map_vector(&self, _quantity: MapVector) -> Vector2 {
+        Vector2::new(f64::NAN, f64::NAN)
+    }
+
+    /// True if a statement about a pose holds in the map. The default has no map, and nothing is proved.
+    fn map_holds(&self, _question: MapQuestion, _position: Vector2, _heading: f64) -> bool {
+        false
+    }
+
+    /// Sets the goal of the map's route: a position (m) and a heading (rad) of the body. The default has no map.
+    fn go_to(&mut self, _position: Vector2, _heading: f64) {}
+
+    /// Tells the map that its next target could not be touched. The default has no map.
+    fn give_up(&mut self) {}
+}
+
+/// Scalars and booleans of the map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MapScalar {
+    /// Area (m²) of unknown ground beside free ground.
+    Unknown,
+    /// True if nothing is left to be touched or looked at.
+    IsComplete,
+    /// True if there is a next target.
+    HasNext,
+    /// True if the next target is at a surface, and not unknown ground.
+    NextIsSurface,
+    /// Side of the whisker for the next target: −1 for one on the right, +1 for one on the left.
+    NextSide,
+    /// Heading (rad) of the body from which the next target is begun.
+    NextHeading,
+    /// Speed (m/s) along the route.
+    RouteSpeed,
+    /// Yaw rate (rad/s) along the route.
+    RouteYawRate,
+    /// True if the body is at the goal.
+    RouteIsDone,
+    /// True if no route leads to the goal.
+    RouteIsLost,
+}
+
+impl MapScalar {
+    /// True if the scalar is a boolean.
+    #[must_use]
+    pub fn is_bool(self) -> bool {
+        matches!(self, Self::IsComplete | Self::HasNext | Self::NextIsSurface | Self::RouteIsDone | Self::RouteIsLost)
+    }
+}
+
+/// Vectors of the map, in the world frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MapVector {
+    /// Place of the next target (m).
+    NextPlace,
+    /// Unit vector from the next target to free ground.
+    NextNormal,
+    /// Position of the body from which the next target is begun (m).
+    NextPosition,
+    /// Direction of motion along the route (unit vector, or zero at a standstill).
+    RouteDirection,
+}
+
+/// Statements about a pose that a map can prove.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MapQuestion {
+    /// The position is proved free.
+    IsFree,
+    /// The ground of the body at the pose is proved free.
+    IsClear,
+    /// A contour was recorded at the position, up to 10 mm.
+    IsTraced,
 }
 
 /// A mark of a policy for the evaluation of a run.

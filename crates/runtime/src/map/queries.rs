@@ -8,6 +8,7 @@ use super::contour_ends::ContourEnd;
 use super::contours::ContourPoint;
 use super::first_touch::FirstTouch;
 use super::route::{RouteStatus, RouteStep};
+use super::route_follow::RouteMotion;
 use super::shaft_contact::ShaftContact;
 use super::targets::Target;
 use super::touch_map::Map;
@@ -55,6 +56,24 @@ impl Map {
     #[must_use]
     pub fn route(&self) -> &[RouteStep] {
         self.route.steps()
+    }
+
+    /// The motion along the route. The body stands still while there is none.
+    #[must_use]
+    pub fn route_motion(&self) -> RouteMotion {
+        self.route.motion()
+    }
+
+    /// True if the body has followed the route to its goal and is still there.
+    #[must_use]
+    pub fn is_at_goal(&self) -> bool {
+        self.route.is_done()
+    }
+
+    /// True if a contour was recorded within a distance (m) of a point (m, world frame).
+    #[must_use]
+    pub fn is_traced(&self, point: Point2, within: f64) -> bool {
+        self.contours.points().iter().any(|known| (known.place - point).norm() <= within)
     }
 
     /// Area (m²) of the unknown ground beside free ground, in blocks of eight cells. Ground beside a known surface and ground whose

@@ -5,6 +5,7 @@ use crate::geometry::Pose;
 use super::cells::Cells;
 use super::clearance::{Ground, NearSurfaces};
 use super::lattice::Lattice;
+use super::route_follow::{Follower, RouteMotion};
 use super::route_search::{MOST_STEPS, Pace, Progress, RouteError, RouteSearch};
 
 /// Expansions of the search in a tick. Each tests ten moves, so that they take a third of a millisecond on a small computer.
@@ -41,6 +42,8 @@ pub enum RouteStatus {
 pub(super) struct Route {
     lattice: Lattice,
     search: RouteSearch,
+    pace: Pace,
+    follower: Follower,
     goal: Option<Pose>,
     status: RouteStatus,
     is_begun: bool,
@@ -55,6 +58,8 @@ impl Route {
         Self {
             lattice,
             search: RouteSearch::new(pace),
+            pace,
+            follower: Follower::new(Pose::UNKNOWN),
             goal: None,
             status: RouteStatus::Idle,
             is_begun: false,
@@ -76,6 +81,17 @@ impl Route {
         self.status = if self.goal.is_some() { RouteStatus::Searching } else { RouteStatus::Idle };
         (self.is_begun, self.failed_for, self.tested) = (false, 0, 0);
         self.steps.clear();
+        self.follower = Follower::new(Pose::UNKNOWN);
+    }
+
+    /// The motion along the route. None while there is no route.
+    pub(super) fn motion(&self) -> RouteMotion {
+        self.follower.motion
+    }
+
+    /// True if the body is at the goal.
+    pub(super) fn is_done(&self) -> bool {
+        self.follower.is_done
     }
 
     /// The lattice of poses.
@@ -110,7 +126,12 @@ impl Route {
                     Progress::Found => self.collect(cells, near, body, goal),
                 }
             }
-            RouteStatus::Found => self.test(cells, near),
+            RouteStatus::Found => {
+                self.test(cells, near);
+                if self.status == RouteStatus::Found && !self.follower.update(&self.steps, &self.pace, body) {
+                    self.restart();
+                }
+            }
             RouteStatus::Failed(_) => {
                 self.failed_for += 1;
                 if self.failed_for > PATIENCE {
@@ -135,6 +156,8 @@ impl Route {
             before = pose;
         }
         self.status = RouteStatus::Found;
+        self.follower = Follower::new(body);
+        self.follower.update(&self.steps, &self.pace, body);
     }
 
     /// Tests some steps again. The search begins anew if one is blocked. The first one began where the body was then.

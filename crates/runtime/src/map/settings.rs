@@ -1,5 +1,9 @@
 //! The settings of a map.
 
+use crate::geometry::Point2;
+use crate::math;
+use crate::rig::Rig;
+
 use super::route_search::Pace;
 
 /// Largest memory of the cells, as their number on a side. Two bits for each are then 16 MB.
@@ -67,6 +71,27 @@ impl MapSettings {
             return Err(MapError::TooLarge { extent: self.extent, cell: self.cell });
         }
         Ok(())
+    }
+}
+
+impl MapSettings {
+    /// The settings for a rig: the default ones, with routes near surfaces only if whiskers guard the nose.
+    ///
+    /// The shafts ahead of the nose must extend over its width. Then a surface ahead bends one of them before the nose
+    /// reaches it.
+    #[must_use]
+    pub fn for_rig(rig: &Rig) -> Self {
+        let platform = &rig.platform;
+        let nose = platform.length - platform.centre_of_mass;
+        let tips = rig.whiskers.iter().map(|whisker| {
+            whisker.perceived().base_pose().point_to_world(Point2::new(whisker.shaft.length, 0.0))
+        });
+        let ahead = tips.filter(|tip| tip.x > nose);
+        let (right, left) = ahead.fold((0.0, 0.0), |(right, left), tip| (math::min(right, tip.y), math::max(left, tip.y)));
+        let pace = Pace::default();
+        let is_guarded = math::min(left, -right) >= 0.5 * platform.nose_width;
+        let near_surface = if is_guarded { pace.unknown } else { pace.near_surface };
+        Self { pace: Pace { near_surface, ..pace }, ..Self::default() }
     }
 }
 
