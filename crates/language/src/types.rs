@@ -27,6 +27,12 @@ pub(super) enum Type {
     Contour,
     /// The platform.
     Body,
+    /// The map.
+    Map,
+    /// What the map wants to be touched or looked at next.
+    Target,
+    /// The route through the map.
+    Route,
     /// A whole run, in a test.
     Run,
     /// A record or a list.
@@ -153,6 +159,9 @@ impl fmt::Display for Type {
             Self::Whisker => f.write_str("a whisker"),
             Self::Contour => f.write_str("a contour"),
             Self::Body => f.write_str("the body"),
+            Self::Map => f.write_str("the map"),
+            Self::Target => f.write_str("the next target of the map"),
+            Self::Route => f.write_str("the route of the map"),
             Self::Run => f.write_str("the run"),
             Self::Compound(_) => f.write_str("a record or a list"),
             Self::Monitor(_) => f.write_str("a monitor"),

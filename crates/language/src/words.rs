@@ -47,7 +47,7 @@ const PROPERTY: Class = Class::new(Role::Control, &[Position::Property], Expecte
 const TYPE: Class = Class::new(Role::Control, &[Position::Type], Expected::Value);
 
 /// Every word that is not a function.
-pub(super) const WORDS: [Word; 81] = [
+pub(super) const WORDS: [Word; 82] = [
     entry("machine", FILE, "machine ${1:name}", "Begins a policy and names it."),
     entry(
         "library",
@@ -362,6 +362,7 @@ pub(super) const WORDS: [Word; 81] = [
     entry("true", BOOL, "true", "True."),
     entry("false", BOOL, "false", "False."),
     entry("body", VALUE, "body", "The platform."),
+    entry("map", VALUE, "map", "What the robot knows of its surroundings by touch. A policy that uses it has one."),
     entry("time", VALUE, "time", "The time since the start of the run."),
     entry("state_time", VALUE, "state_time", "The time since the entry of the state that contains it."),
     entry("run", RUN, "run", "The whole run, in the expectations of a test."),

@@ -187,8 +187,18 @@ impl<'m> Bounds<'m> {
                 region.is_partial = true;
                 self.put(to, Interval::new(0.0, 1.0));
             }
-            Op::TipAt { to, .. } | Op::ContourAt { to, .. } => {
-                // The positions of tips depend on the rig's whiskers, and the course of a contour on the object.
+            Op::Map { to, quantity } => {
+                // A map depends on previous ticks.
+                region.is_partial = true;
+                self.put(to, if quantity.is_bool() { Interval::new(0.0, 1.0) } else { Interval::ANYTHING });
+            }
+            Op::MapHolds { to, .. } => {
+                region.is_partial = true;
+                self.put(to, Interval::new(0.0, 1.0));
+            }
+            Op::TipAt { to, .. } | Op::ContourAt { to, .. } | Op::MapVector { to, .. } => {
+                // The positions of tips depend on the rig's whiskers, the course of a contour on the object, and a map on previous
+                // ticks.
                 region.is_partial = true;
                 self.put_vector(to, [Interval::ANYTHING; 2]);
             }
@@ -205,6 +215,9 @@ impl<'m> Bounds<'m> {
             | Op::Record { .. }
             | Op::RecordPosition { .. }
             | Op::Mark { .. }
+            | Op::GoTo { .. }
+            | Op::GiveUp
+            | Op::Felt { .. }
             | Op::SteerBodyFacing { .. }
             | Op::SteerBodyTurning { .. }
             | Op::SteerWhiskerFacing { .. }

@@ -5,7 +5,9 @@ use std::sync::LazyLock;
 use crate::test::{PlotFigure, RunFigure};
 use crate::types::Type;
 use vibrissa_declare::figures::{Figure, Metric};
-use vibrissa_runtime::machine::{BodyScalar, ContourVector, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::machine::{
+    BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, WhiskerScalar, WhiskerVector,
+};
 use vibrissa_runtime::units::Dimension;
 
 /// A member of a whisker, a contour, the body or a run.
@@ -37,6 +39,10 @@ pub(crate) enum MemberSource {
     Tail,
     /// Only with arguments.
     At,
+    Map(MapScalar),
+    MapVector(MapVector),
+    /// A part of the map: its next target or its route.
+    MapPart,
     Run(RunFigure),
     /// Number of entries of a state, which is the argument.
     Visits,
@@ -55,6 +61,8 @@ pub(crate) enum At {
     Contour(ContourVector),
     /// True if a loop is closed within a distance, after a time.
     LoopClosed,
+    /// True if a statement holds in the map.
+    Map(MapQuestion),
 }
 
 impl At {
@@ -64,6 +72,10 @@ impl At {
             Self::Tip => &[("base angle", Type::ANGLE, "300 urad")],
             Self::Contour(_) => &[("distance behind the end", Type::LENGTH, "5 mm")],
             Self::LoopClosed => &[("largest distance", Type::LENGTH, "5 mm"), ("least time", Type::TIME, "5 s")],
+            Self::Map(MapQuestion::IsClear) => {
+                &[("position", Type::Position, "body.position"), ("heading", Type::ANGLE, "body.yaw")]
+            }
+            Self::Map(_) => &[("position", Type::Position, "body.position")],
         }
     }
 }
@@ -268,6 +280,121 @@ const BODY: [Member; 12] = [
     ),
 ];
 
+const fn map_scalar(name: &'static str, r#type: Type, quantity: MapScalar, meaning: &'static str) -> Member {
+    member(name, r#type, MemberSource::Map(quantity), meaning)
+}
+
+const fn map_vector(name: &'static str, r#type: Type, quantity: MapVector, meaning: &'static str) -> Member {
+    member(name, r#type, MemberSource::MapVector(quantity), meaning)
+}
+
+const fn map_question(name: &'static str, question: MapQuestion, meaning: &'static str) -> Member {
+    Member { at: Some(At::Map(question)), ..member(name, Type::Bool, MemberSource::At, meaning) }
+}
+
+const MAP: [Member; 7] = [
+    member("next", Type::Target, MemberSource::MapPart, "what should be touched or looked at next"),
+    member("route", Type::Route, MemberSource::MapPart, "the route of the body to the goal of `tell map.go_to`"),
+    map_scalar(
+        "complete",
+        Type::Bool,
+        MapScalar::IsComplete,
+        "true if nothing that the array can reach is left to be touched or looked at",
+    ),
+    map_scalar(
+        "unknown",
+        Type::Scalar(Dimension::AREA),
+        MapScalar::Unknown,
+        "the area of the unknown ground beside free ground, without ground beside known surfaces",
+    ),
+    map_question("free", MapQuestion::IsFree, "true if the position is proved free"),
+    map_question(
+        "clear",
+        MapQuestion::IsClear,
+        "true if all ground of the body at the position and heading is proved free",
+    ),
+    map_question("traced", MapQuestion::IsTraced, "true if a tip was recorded within 10 mm of the position"),
+];
+
+const TARGET: [Member; 7] = [
+    map_scalar(
+        "exists",
+        Type::Bool,
+        MapScalar::HasNext,
+        "true if there is a next target. Its other members are unknown without one",
+    ),
+    map_scalar(
+        "on_surface",
+        Type::Bool,
+        MapScalar::NextIsSurface,
+        "true if the target is the open end of a contour, a gap or a touched position, false if it is unknown ground",
+    ),
+    map_vector("place", Type::Position, MapVector::NextPlace, "the position that should be touched or looked at"),
+    map_vector("normal", Type::Direction, MapVector::NextNormal, "the direction from `place` to free ground"),
+    map_vector("position", Type::Position, MapVector::NextPosition, "the position of the body from which to begin"),
+    map_scalar("heading", Type::ANGLE, MapScalar::NextHeading, "the heading of the body from which to begin"),
+    map_scalar(
+        "side",
+        Type::NUMBER,
+        MapScalar::NextSide,
+        "the side of the whisker that should touch: \u{2212}1 on the right, 1 on the left",
+    ),
+];
+
+const ROUTE: [Member; 5] = [
+    map_vector(
+        "direction",
+        Type::Vector(Dimension::NUMBER),
+        MapVector::RouteDirection,
+        "the direction of motion along the route, of length 1, or 0 at a standstill",
+    ),
+    map_scalar("speed", Type::SPEED, MapScalar::RouteSpeed, "the speed along the route, 0 while there is none"),
+    map_scalar(
+        "yaw_rate",
+        Type::ANGULAR_SPEED,
+        MapScalar::RouteYawRate,
+        "the yaw rate along the route, 0 while there is none",
+    ),
+    map_scalar(
+        "arrived",
+        Type::Bool,
+        MapScalar::RouteIsDone,
+        "true if the body has followed the route and is at its goal",
+    ),
+    map_scalar(
+        "lost",
+        Type::Bool,
+        MapScalar::RouteIsLost,
+        "true if no route leads to the goal, or the body has left it",
+    ),
+];
+
+/// The events of the map that a statement can tell: the name, its values as those of a member, and the meaning.
+pub(crate) const MAP_EVENTS: [(&str, &[(&str, Type, &str)], &str); 3] = [
+    (
+        "go_to",
+        &[("position", Type::Position, "map.next.position"), ("heading", Type::ANGLE, "map.next.heading")],
+        "searches a route of the body to a position and a heading. The search takes some ticks, and goes on while the goal stays the same",
+    ),
+    (
+        "felt",
+        &[("position", Type::Position, "w.tip"), ("direction", Type::Direction, "direction(body.yaw + 180 deg)")],
+        "something was felt at a position, with free ground in a direction. It becomes a target, unless it is known, refuted by free ground, or given up",
+    ),
+    (
+        "give_up",
+        &[],
+        "the next target could not be touched. After three failures the map closes it, and what is near it",
+    ),
+];
+
+/// The notation of an event of the map.
+pub(crate) fn map_event_usage(name: &str, takes: &[(&str, Type, &str)]) -> String {
+    let values: Vec<&str> = takes.iter().map(|&(value, ..)| value).collect();
+    let values = if values.is_empty() { String::new() } else { format!("({})", values.join(", ")) };
+    format!("tell map.{name}{values}")
+}
+
 const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'static str) -> Member {
     member(name, r#type, MemberSource::Run(figure), meaning)
 }
@@ -340,6 +467,9 @@ pub(crate) fn members(owner: Type) -> &'static [Member] {
         Type::Whisker => &WHISKER,
         Type::Contour => &CONTOUR,
         Type::Body => &BODY,
+        Type::Map => &MAP,
+        Type::Target => &TARGET,
+        Type::Route => &ROUTE,
         Type::Vector(_) | Type::Position | Type::Direction => &VECTOR,
         Type::Run => &RUN,
         Type::Bool | Type::Choice(_) | Type::Scalar(_) | Type::Compound(_) | Type::Monitor(_) => &[],

@@ -6,7 +6,7 @@ mod member;
 mod reference;
 
 pub(super) use function::{FUNCTIONS, Function, function};
-pub(super) use member::{At, LIST_MEMBERS, Member, MemberSource, members};
+pub(super) use member::{At, LIST_MEMBERS, MAP_EVENTS, Member, MemberSource, map_event_usage, members};
 
 #[cfg(test)]
 mod tests {

@@ -10,10 +10,11 @@ use crate::types::{DIMENSIONS, Type};
 use crate::unit::units_of;
 use crate::word_reference::words;
 use vibrissa_declare::catalogue::{self, Parameter};
+use vibrissa_runtime::machine::MapQuestion;
 use vibrissa_runtime::units::Dimension;
 use vibrissa_text::diagnostic::Source;
 
-use super::{At, FUNCTIONS, LIST_MEMBERS, MemberSource, members};
+use super::{At, FUNCTIONS, LIST_MEMBERS, MAP_EVENTS, MemberSource, map_event_usage, members};
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference.md");
 
@@ -69,9 +70,17 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
 ";
     row(&mut page, ["`time`", &shown(Type::TIME), "the time since the start of the run"]);
     row(&mut page, ["`state_time`", &shown(Type::TIME), "the time since the entry of the state that contains it"]);
-    for (owner, prefix) in [(Type::Body, "body"), (Type::Whisker, "w"), (Type::Contour, "c"), (Type::Run, "run")] {
+    for (owner, prefix) in [
+        (Type::Body, "body"),
+        (Type::Map, "map"),
+        (Type::Target, "map.next"),
+        (Type::Route, "map.route"),
+        (Type::Whisker, "w"),
+        (Type::Contour, "c"),
+        (Type::Run, "run"),
+    ] {
         page += match owner {
-            Type::Body => "",
+            Type::Body | Type::Map | Type::Target | Type::Route => "",
             Type::Whisker => "\n## Members of a whisker `w`\n\n| member | type | meaning |\n|---|---|---|\n",
             Type::Run => {
                 "\n## Members of `run`, in the expectations of tests and properties\n\n| member | type | meaning |\n|---|---|---|\n"
@@ -101,6 +110,10 @@ Unless stated otherwise, positions and directions are in the world frame (x righ
     page += "\n### Members of a list\n\n| member | meaning |\n|---|---|\n";
     for (_, usage, meaning) in LIST_MEMBERS {
         row(&mut page, [&format!("`list.{usage}`"), meaning]);
+    }
+    page += "\n### What the map can be told\n\n| statement | meaning |\n|---|---|\n";
+    for (name, takes, meaning) in MAP_EVENTS {
+        row(&mut page, [&format!("`{}`", map_event_usage(name, takes)), meaning]);
     }
     page += "\n## Functions\n\n| function | arguments | result |\n|---|---|---|\n";
     for (_, function, usage, meaning) in FUNCTIONS {
@@ -228,6 +241,8 @@ fn value(at: At) -> &'static str {
         At::Tip => "base_angle",
         At::Contour(_) => "back",
         At::LoopClosed => "within, after",
+        At::Map(MapQuestion::IsClear) => "position, heading",
+        At::Map(_) => "position",
     }
 }
 

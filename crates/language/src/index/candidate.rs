@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::ast::{Name, TypeName};
-use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS, MemberSource};
+use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS, MAP_EVENTS, MemberSource};
 use crate::standard::{self, ROOT};
 use crate::types::{Compound, DIMENSIONS, PLAIN_TYPES, Type};
 use crate::unit::units_of;
@@ -88,6 +88,7 @@ impl Index {
             Expected::Member(dot) => match self.resolved.owners.get(&dot) {
                 Some(Owner::Value(Type::Run)) if context.level != Level::Test => Vec::new(),
                 Some(&Owner::Value(Type::Compound(of))) => self.members_of(of),
+                Some(Owner::Value(Type::Map)) if context.tells => map_events().collect(),
                 Some(&Owner::Value(owner)) => members(owner).collect(),
                 Some(&Owner::State(monitor)) if self.symbols[monitor].kind != SymbolKind::State => {
                     let content = self.resolved.behaviours.get(&monitor).copied().unwrap_or(monitor);
@@ -271,6 +272,21 @@ fn members(owner: Type) -> impl Iterator<Item = Candidate> {
             detail: member.r#type.to_string(),
             meaning: member.meaning.to_owned(),
             snippet: if fields.is_empty() { member.name.to_owned() } else { format!("{}({fields})", member.name) },
+        }
+    })
+}
+
+/// What the map can be told.
+fn map_events() -> impl Iterator<Item = Candidate> {
+    MAP_EVENTS.iter().map(|&(name, takes, meaning)| {
+        let fields = (1..).zip(takes).map(|(number, (value, ..))| format!("${{{number}:{value}}}"));
+        let fields = fields.collect::<Vec<_>>().join(", ");
+        Candidate {
+            label: name.to_owned(),
+            kind: CandidateKind::Member,
+            detail: String::new(),
+            meaning: meaning.to_owned(),
+            snippet: if fields.is_empty() { name.to_owned() } else { format!("{name}({fields})") },
         }
     })
 }

@@ -1,6 +1,6 @@
 //! Hover texts.
 
-use crate::builtins::{FUNCTIONS, LIST_MEMBERS, Member, MemberSource};
+use crate::builtins::{FUNCTIONS, LIST_MEMBERS, MAP_EVENTS, Member, MemberSource, map_event_usage};
 use crate::description::description;
 use crate::types::Type;
 use crate::unit::units_of;
@@ -46,6 +46,10 @@ impl Index {
                     format!("of a `{}`", self.symbols[list].name),
                     meaning.to_owned(),
                 ])
+            }
+            Meaning::MapEvent(event) => {
+                let (name, takes, meaning) = MAP_EVENTS[event];
+                paragraphs(&[code(&map_event_usage(name, takes)), meaning.to_owned()])
             }
             Meaning::File(part) => self.explain_file(part),
             Meaning::Type(r#type) => paragraphs(&[code(self.source.slice(known.span)), type_line(r#type)]),
@@ -165,6 +169,9 @@ fn owner_name(owner: Type) -> &'static str {
         Type::Whisker => "whisker",
         Type::Contour => "contour",
         Type::Run => "run",
+        Type::Map => "map",
+        Type::Target => "map.next",
+        Type::Route => "map.route",
         _ => "body",
     }
 }

@@ -80,6 +80,7 @@ impl<'s> Operands<'s> {
                 None
             }
             (TokenKind::Keyword, "body", _) => Some(Owner::Value(Type::Body)),
+            (TokenKind::Name, "map", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Map)),
             (TokenKind::Name, "run", Some(Meaning::Keyword(_))) => Some(Owner::Value(Type::Run)),
             (_, _, Some(Meaning::Symbol(symbol, _))) => match self.symbols[symbol].kind {
                 SymbolKind::State | SymbolKind::Monitor => Some(Owner::State(symbol)),

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS};
+use crate::builtins::{self, FUNCTIONS, LIST_MEMBERS, MAP_EVENTS};
 use crate::token::{Kind as TokenKind, Token};
 use crate::types::{Compound, Type, dimension};
 use vibrissa_declare::catalogue::{self, Entry};
@@ -189,6 +189,9 @@ fn owned(symbols: &[Symbol], owner: usize, name: &str) -> Option<Meaning> {
 }
 
 fn member(owner: Type, name: &str) -> Option<Meaning> {
+    if let Some(event) = MAP_EVENTS.iter().position(|&(known, ..)| owner == Type::Map && known == name) {
+        return Some(Meaning::MapEvent(event));
+    }
     let member = builtins::members(owner).iter().find(|member| member.name == name)?;
     Some(Meaning::Member(owner, *member))
 }

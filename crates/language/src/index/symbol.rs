@@ -114,6 +114,8 @@ pub(super) enum Meaning {
     Member(Type, Member),
     /// A member of a list, by the symbol of its type and its index in the table.
     ListMember(usize, usize),
+    /// Something that the map can be told, by its index in the table.
+    MapEvent(usize),
     Type(Type),
     Unit(Dimension),
     /// A used file, by its part of the source.

@@ -186,6 +186,7 @@ impl<'f> Compiler<'f> {
             (Some(meaning), _) => meaning?,
             (None, "body") => Value { r#type: Type::Body, register: 0 },
             (None, "run") if self.figures.is_some() => Value { r#type: Type::Run, register: 0 },
+            (None, "map") => Value { r#type: Type::Map, register: 0 },
             (None, "time") => Value { r#type: Type::TIME, register: self.code.scalar(|to| Op::Time { to }) },
             (None, "state_time") => Value { r#type: Type::TIME, register: self.state_time(name.span)? },
             (None, _) => {
@@ -243,8 +244,8 @@ impl<'f> Compiler<'f> {
             let diagnostic = Diagnostic::error("P0203", message, name.span, "unknown member");
             let mut diagnostic = did_you_mean(diagnostic, &name.text, members.iter().map(|member| member.name));
             if members.is_empty() {
-                diagnostic =
-                    diagnostic.hint("only whiskers, their contours, vectors, records, lists and `body` have members");
+                diagnostic = diagnostic
+                    .hint("only whiskers, their contours, vectors, records, lists, `body` and `map` have members");
             } else {
                 let known: Vec<&str> = members.iter().map(|member| member.name).collect();
                 diagnostic = diagnostic.hint(format!("{} has {}", value.r#type, known.join(", ")));
@@ -283,6 +284,13 @@ impl<'f> Compiler<'f> {
                     (At::LoopClosed, &[Some(a), Some(b)]) => {
                         self.code.scalar(|to| Op::LoopClosed { to, whisker, a, b })
                     }
+                    (At::Map(question), &[Some(a)]) => {
+                        let b = self.code.constant(0.0);
+                        self.code.scalar(|to| Op::MapHolds { to, a, b, question })
+                    }
+                    (At::Map(question), &[Some(a), Some(b)]) => {
+                        self.code.scalar(|to| Op::MapHolds { to, a, b, question })
+                    }
                     _ => return None,
                 }
             }
@@ -307,11 +315,15 @@ impl<'f> Compiler<'f> {
                 self.report_call(format!("`{}` takes no values", name.text), name.span);
                 return None;
             }
-            (MemberSource::Contour | MemberSource::At | MemberSource::Component(_), ..) => whisker,
+            (MemberSource::Contour | MemberSource::At | MemberSource::Component(_) | MemberSource::MapPart, ..) => {
+                whisker
+            }
             (MemberSource::Scalar(quantity), ..) => self.code.scalar(|to| Op::Whisker { to, whisker, quantity }),
             (MemberSource::Vector(quantity), ..) => self.code.vector(|to| Op::WhiskerVector { to, whisker, quantity }),
             (MemberSource::Body(quantity), ..) => self.code.scalar(|to| Op::Body { to, quantity }),
             (MemberSource::BodyPosition, ..) => self.code.vector(|to| Op::BodyPosition { to }),
+            (MemberSource::Map(quantity), ..) => self.code.scalar(|to| Op::Map { to, quantity }),
+            (MemberSource::MapVector(quantity), ..) => self.code.vector(|to| Op::MapVector { to, quantity }),
             (MemberSource::Nose, ..) => self.end_of_body(false),
             (MemberSource::Tail, ..) => self.end_of_body(true),
             (MemberSource::Run(figure), ..) => self.figure(figure, name.span),
@@ -336,7 +348,7 @@ impl<'f> Compiler<'f> {
             });
             return None;
         }
-        if let Type::Body | Type::Run | Type::Monitor(_) = r#type {
+        if let Type::Body | Type::Map | Type::Target | Type::Route | Type::Run | Type::Monitor(_) = r#type {
             return self.mismatch(sides[0].span, r#type, "an `if` chooses between values");
         }
         let width = r#type.width();

@@ -13,6 +13,7 @@ mod exit;
 mod expression;
 mod function;
 mod hierarchy;
+mod map;
 mod memory;
 mod monitor;
 mod names;

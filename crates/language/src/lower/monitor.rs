@@ -309,6 +309,9 @@ impl<'f> Compiler<'f> {
         values: &'f [Expression],
         span: Span,
     ) -> Option<()> {
+        if monitor.text == "map" && scope.get("map").is_none() {
+            return self.tell_map(scope, event, values);
+        }
         let value = self.monitor_named(scope, monitor)?;
         let Running { content, file, .. } = self.running.get(usize::from(value.register))?;
         let (content, file) = (*content, *file);

@@ -223,7 +223,7 @@ impl<'f> Compiler<'f> {
             let known = scope.names().into_iter();
             let known = known.chain(self.names().globals.keys().copied()).chain(self.names().derived.keys().copied());
             let known = known.chain(self.names().enumerations.keys().chain(self.names().compounds.keys()).copied());
-            let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["time", "state_time"]);
+            let known = known.chain(FUNCTIONS.iter().map(|&(known, ..)| known)).chain(["map", "time", "state_time"]);
             let diagnostic = in_the_standard_library(did_you_mean(diagnostic, text, known), text);
             let is_whisker =
                 |(_, meaning): &(&&str, &Meaning)| meaning.is_some_and(|value| value.r#type == Type::Whisker);
@@ -254,7 +254,7 @@ pub(super) fn in_the_standard_library(diagnostic: Diagnostic, name: &str) -> Dia
 
 /// True if the language reserves a name.
 pub(crate) fn is_reserved(name: &str) -> bool {
-    builtins::function(name).is_some() || ["time", "state_time", "run", FAILURE, SUCCESS].contains(&name)
+    builtins::function(name).is_some() || ["map", "time", "state_time", "run", FAILURE, SUCCESS].contains(&name)
 }
 
 /// The diagnostic for a reserved name.

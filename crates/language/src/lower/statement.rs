@@ -123,6 +123,16 @@ impl<'f> Compiler<'f> {
         }
     }
 
+    /// Refuses to tell the map something at `span` where it is not allowed.
+    pub(super) fn allow_telling_the_map(&mut self, span: Span) -> Option<()> {
+        match self.commandless.filter(|commandless| !commandless.allows_records) {
+            Some(commandless) => {
+                self.refuse(commandless, span, ("cannot tell the map anything", "does so", "is told here"))
+            }
+            None => Some(()),
+        }
+    }
+
     /// Reports that a construct does not allow something: what it cannot do, what a law in it does, and what it is.
     fn refuse(&mut self, within: Commandless, span: Span, (cannot, does, what): (&str, &str, &str)) -> Option<()> {
         let message = format!("{} {cannot}", within.construct);

@@ -212,6 +212,9 @@ fn reads_a_tick(op: &Op) -> bool {
             | Op::TipAt { .. }
             | Op::LoopClosed { .. }
             | Op::ContourAt { .. }
+            | Op::Map { .. }
+            | Op::MapVector { .. }
+            | Op::MapHolds { .. }
             | Op::LowPass { .. }
             | Op::Pid { .. }
             | Op::Count { .. }

@@ -121,7 +121,7 @@ impl KnownValues {
         match op {
             Op::Copy { to, a } => self.copy(number, to, a),
             Op::CopyVector { to, a } => [0, 1].into_iter().for_each(|axis| self.copy(number, to + axis, a + axis)),
-            Op::Record { .. } | Op::RecordPosition { .. } => self.recorded = number,
+            _ if op.changes_senses() => self.recorded = number,
             _ => {
                 if let Some(op) = canonical {
                     let first = self.first(&operands);

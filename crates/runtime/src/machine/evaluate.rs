@@ -147,6 +147,7 @@ pub(super) fn evaluate<S: Senses>(
             Op::Mark { whisker, mark } => senses.mark(file.index(whisker), mark),
             Op::GoTo { a, b } => senses.go_to(file.vector(a), file.at(b)),
             Op::GiveUp => senses.give_up(),
+            Op::Felt { a, b } => senses.felt(file.vector(a), file.vector(b)),
             Op::SteerBodyFacing { along, speed, heading } => {
                 *action = file.steer(Mover::Body, along, speed, Turn::Facing(file.at(heading)));
                 has_acted = true;

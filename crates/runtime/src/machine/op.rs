@@ -4,9 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::senses::{
-    BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, Mark, WhiskerScalar, WhiskerVector,
-};
+use super::senses::{BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, Mark, WhiskerScalar, WhiskerVector};
 
 /// Index of a register.
 pub type Register = u16;
@@ -152,6 +150,8 @@ pub enum Op {
     GoTo { a: Wide, b: Register },
     /// Tells the map that its next target could not be touched.
     GiveUp,
+    /// Tells the map that something was felt at the position `a`, with free ground in the direction `b`.
+    Felt { a: Wide, b: Wide },
     /// Moves the body and rotates it to a heading.
     SteerBodyFacing { along: Wide, speed: Register, heading: Register },
     /// Moves the body and rotates it at a yaw rate.

@@ -135,7 +135,12 @@ impl Op {
     pub fn is_of_map(self) -> bool {
         matches!(
             self,
-            Self::Map { .. } | Self::MapVector { .. } | Self::MapHolds { .. } | Self::GoTo { .. } | Self::GiveUp
+            Self::Map { .. }
+                | Self::MapVector { .. }
+                | Self::MapHolds { .. }
+                | Self::GoTo { .. }
+                | Self::GiveUp
+                | Self::Felt { .. }
         )
     }
 
@@ -152,6 +157,7 @@ impl Op {
             self,
             Self::GoTo { .. }
                 | Self::GiveUp
+                | Self::Felt { .. }
                 | Self::Record { .. }
                 | Self::RecordPosition { .. }
                 | Self::Mark { .. }
@@ -288,6 +294,10 @@ impl Op {
             Self::GoTo { a, b } => {
                 visit(Read(2), a);
                 visit(Read(1), b);
+            }
+            Self::Felt { a, b } => {
+                visit(Read(2), a);
+                visit(Read(2), b);
             }
             Self::Whisker { to, whisker, quantity } | Self::WhiskerSize { to, whisker, quantity } => {
                 visit(Write(1), to);

@@ -63,6 +63,9 @@ pub trait Senses {
 
     /// Tells the map that its next target could not be touched. The default has no map.
     fn give_up(&mut self) {}
+
+    /// Tells the map that something was felt at a position (m), with free ground in a direction. The default has no map.
+    fn felt(&mut self, _position: Vector2, _normal: Vector2) {}
 }
 
 /// Scalars and booleans of the map.

@@ -29,6 +29,12 @@ impl Grid {
         Self { corner: Point2::new(centre.x - half, centre.y - half), ..self }
     }
 
+    /// The middle of the square (m, world frame).
+    pub(super) fn middle(self) -> Point2 {
+        let half = 0.5 * self.side as f64 * self.cell;
+        Point2::new(self.corner.x + half, self.corner.y + half)
+    }
+
     /// A point (m, world frame) in cells.
     pub(super) fn to_cells(self, point: Point2) -> Point2 {
         ((point - self.corner) / self.cell).into()

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::{Point2, Pose, Vector2, wrap};
+use crate::geometry::{Point2, Pose, Vector2, unit, wrap};
 use crate::math;
 
 use super::cells::Cells;
@@ -87,6 +87,12 @@ impl Lattice {
         }
     }
 
+    /// True if a move of the lattice leads ahead.
+    pub(super) fn is_ahead(&self, node: Node, step: usize) -> bool {
+        let Some(&(x, y)) = STEPS.get(step) else { return true };
+        leads_ahead(heading_of(node.heading), Vector2::new(f64::from(x), f64::from(y)))
+    }
+
     /// A number of a pose, less than 2³².
     pub(super) fn key(&self, node: Node) -> u32 {
         let place = u32::try_from(node.row * self.side + node.column).unwrap_or(0);
@@ -152,6 +158,12 @@ impl Lattice {
             if is_inside { Ground::NearSurface } else { ground_of_sweep(&self.exact, cells, near, from, to) };
         on_the_way.max(self.ground_between(cells, near, to, to))
     }
+}
+
+/// True if a motion leads ahead, within 60° of the nose, for a body with this heading (rad). Whiskers feel what is ahead before the body
+/// reaches it, and nothing feels what is behind. It is also true without a motion.
+pub(super) fn leads_ahead(heading: f64, way: Vector2) -> bool {
+    way.dot(&unit(heading)) >= 0.5 * way.norm()
 }
 
 /// The ground that an outline (m, body frame) sweeps between two poses.

@@ -1,6 +1,6 @@
 //! What callers ask of a map.
 
-use crate::geometry::{Point2, Pose};
+use crate::geometry::{Point2, Pose, Vector2};
 
 use super::cells::Cell;
 use super::clearance::{self, Ground};
@@ -38,6 +38,19 @@ impl Map {
     /// Tells that the target could not be touched. After three failures it is closed, and so is what is near it.
     pub fn fail_target(&mut self) {
         self.targets.fail(&mut self.frontier, self.cells.grid);
+    }
+
+    /// Tells that something was felt at a position (m, world frame), with free ground in the direction of `normal`. It becomes a
+    /// target, unless it is known, is in ground that is proved free, or could not be touched before.
+    pub fn feel(&mut self, position: Point2, normal: Vector2) {
+        let Some(normal) = normal.try_normalize(0.0) else { return };
+        if !self.is_placed || self.cells.is_inside_free(position, self.settings.cell) {
+            return;
+        }
+        if let Some(cell) = self.cells.grid.cell_at(position) {
+            self.near.add(cell);
+            self.targets.touch(position, normal, &self.frontier, self.cells.grid);
+        }
     }
 
     /// Sets the goal of the route, or none. The search takes some ticks, and [`route_status`](Self::route_status) tells about it. A

@@ -1,11 +1,11 @@
 //! The route to a goal, and whether it is still open.
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, turn_between};
 
 use super::cells::Cells;
 use super::clearance::{Ground, NearSurfaces};
 use super::lattice::Lattice;
-use super::route_follow::{Follower, RouteMotion};
+use super::route_follow::{Follower, NEAR, NEAR_HEADING, RouteMotion};
 use super::route_search::{MOST_STEPS, Pace, Progress, RouteError, RouteSearch};
 
 /// Expansions of the search in a tick. Each tests ten moves, so that they take a third of a millisecond on a small computer.
@@ -69,9 +69,17 @@ impl Route {
         }
     }
 
-    /// Sets the goal. The search begins in the next tick, unless it is that of the last call.
+    /// Sets the goal. The search begins in the next tick, unless the goal is that of the last call, up to the offsets at which a
+    /// step is reached.
     pub(super) fn seek(&mut self, goal: Option<Pose>) {
-        if self.goal != goal {
+        let is_same = match (self.goal, goal) {
+            (Some(known), Some(goal)) => {
+                (known.position - goal.position).norm() < NEAR
+                    && turn_between(known.heading, goal.heading).abs() < NEAR_HEADING
+            }
+            (known, goal) => known.is_none() && goal.is_none(),
+        };
+        if !is_same {
             self.goal = goal;
             self.restart();
         }

@@ -24,8 +24,8 @@ impl RouteMotion {
 }
 
 /// Offsets (m, rad) from a step at which it is reached. A cell's diagonal of margin bounds the first.
-const NEAR: f64 = 2.5e-3;
-const NEAR_HEADING: f64 = 0.05;
+pub(super) const NEAR: f64 = 2.5e-3;
+pub(super) const NEAR_HEADING: f64 = 0.05;
 /// Rates (Hz) at which offsets from the next step decrease. The servos follow commands several times faster.
 const APPROACH: f64 = 3.0;
 /// Least speed (m/s) and yaw rate (rad/s) before a step, so that it is reached.
@@ -109,7 +109,10 @@ impl Follower {
             let way = after.pose.position - step.pose.position;
             let next = way.try_normalize(0.0).unwrap_or_default();
             let turn = turn_between(step.pose.heading, after.pose.heading).abs();
-            if next.dot(&direction) < if length == 0.0 { 0.9 } else { STRAIGHT } || turn > NEAR_HEADING || after.ground > step.ground {
+            if next.dot(&direction) < if length == 0.0 { 0.9 } else { STRAIGHT }
+                || turn > NEAR_HEADING
+                || after.ground > step.ground
+            {
                 break;
             }
             length += way.norm();

@@ -7,7 +7,7 @@ use crate::geometry::{Pose, turn_between};
 
 use super::cells::Cells;
 use super::clearance::{Ground, NearSurfaces};
-use super::lattice::{HEADINGS, Lattice, MOVES, Node, before};
+use super::lattice::{HEADINGS, Lattice, MOVES, Node, before, leads_ahead};
 
 /// Slots of the table of poses, and the most that are used.
 const SLOTS: usize = 1 << 17;
@@ -18,6 +18,9 @@ const MOST_OPEN: usize = 1 << 15;
 pub(super) const MOST_STEPS: usize = 1024;
 /// Unit of costs (s).
 const UNIT: f64 = 10e-3;
+/// Additional cost of a first move into unproved ground that does not lead ahead, in units. It is more than that of turning round, and
+/// such a move remains possible where a body can only leave backwards.
+const UNGUARDED: u32 = 2000;
 /// Factor, in halves, by which the estimate of the time that is left counts more. A route is then at most so much longer than the
 /// shortest one, and the search expands a fraction of the poses.
 const WEIGHT_IN_HALVES: u32 = 3;
@@ -39,7 +42,7 @@ impl Default for Pace {
     /// A tenth of a metre a second where nothing can be met, a third of it where the body must be ready to stop, and no path near
     /// surfaces, which only a rig with whiskers before its nose can take.
     fn default() -> Self {
-        Self { proved: (0.1, 0.8), unknown: (0.03, 0.3), near_surface: (0.0, 0.0) }
+        Self { proved: (0.1, 0.8), unknown: (0.03, 0.6), near_surface: (0.0, 0.0) }
     }
 }
 
@@ -167,7 +170,9 @@ impl RouteSearch {
                 .pace
                 .cost(ground, size)
                 .or_else(|| Pace { near_surface: self.pace.unknown, ..self.pace }.cost(ground, size));
+            let is_guarded = ground == Ground::Proved || leads_ahead(start.heading, pose.position - start.position);
             if let (Some(cost), Some(_)) = (cost, lattice.nearest(grid, pose)) {
+                let cost = if is_guarded { cost } else { cost + UNGUARDED };
                 self.reach(lattice.key(node), cost, MOVES, self.estimate(node));
             }
         }
@@ -204,6 +209,10 @@ impl RouteSearch {
                     continue;
                 }
                 let ground = lattice.ground(cells, near, node, step);
+                // Unproved ground is entered only with the nose ahead.
+                if ground != Ground::Proved && !lattice.is_ahead(node, step) {
+                    continue;
+                }
                 if let Some(more) = self.pace.cost(ground, lattice.size(cells.grid, step)) {
                     let estimate = self.estimate(next);
                     if !self.reach(number, u32::from(cost) + more, step, estimate) {
@@ -224,7 +233,11 @@ impl RouteSearch {
         is_close && {
             let pose = lattice.pose(cells.grid, node);
             // A goal may be near a surface, because surfaces are what whiskers go to.
-            lattice.ground_between(cells, near, pose, self.goal) != Ground::Blocked
+            match lattice.ground_between(cells, near, pose, self.goal) {
+                Ground::Proved => true,
+                Ground::Unknown | Ground::NearSurface => leads_ahead(pose.heading, self.goal.position - pose.position),
+                Ground::Blocked => false,
+            }
         }
     }
 

@@ -122,4 +122,8 @@ impl Senses for MappedPerception<'_> {
     fn give_up(&mut self) {
         self.map.fail_target();
     }
+
+    fn felt(&mut self, position: Vector2, normal: Vector2) {
+        self.map.feel(position.into(), normal);
+    }
 }

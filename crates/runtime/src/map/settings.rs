@@ -83,11 +83,13 @@ impl MapSettings {
     pub fn for_rig(rig: &Rig) -> Self {
         let platform = &rig.platform;
         let nose = platform.length - platform.centre_of_mass;
-        let tips = rig.whiskers.iter().map(|whisker| {
-            whisker.perceived().base_pose().point_to_world(Point2::new(whisker.shaft.length, 0.0))
-        });
+        let tips = rig
+            .whiskers
+            .iter()
+            .map(|whisker| whisker.perceived().base_pose().point_to_world(Point2::new(whisker.shaft.length, 0.0)));
         let ahead = tips.filter(|tip| tip.x > nose);
-        let (right, left) = ahead.fold((0.0, 0.0), |(right, left), tip| (math::min(right, tip.y), math::max(left, tip.y)));
+        let (right, left) =
+            ahead.fold((0.0, 0.0), |(right, left), tip| (math::min(right, tip.y), math::max(left, tip.y)));
         let pace = Pace::default();
         let is_guarded = math::min(left, -right) >= 0.5 * platform.nose_width;
         let near_surface = if is_guarded { pace.unknown } else { pace.near_surface };

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, turn_between};
 use crate::math;
-use crate::rig::Whisker;
+use crate::rig::{Platform, Whisker};
 
 use super::cells::Cells;
 use super::clearance::{Ground, NearSurfaces};
@@ -48,17 +48,16 @@ pub struct Target {
 /// before an end.
 const BEFORE: f64 = 8e-3;
 const OVERLAP: f64 = 12e-3;
-/// Distance (m) by which a tip enters unknown ground.
-const BEYOND: f64 = 10e-3;
+/// Distance (m) of the nose before unknown ground that the body will drive into.
+const BEFORE_UNKNOWN: f64 = 30e-3;
 /// Time (s) that any target takes besides the path.
 const BASE_TIME: f64 = 2.0;
 /// Factor by which the value of another target of the same kind must be larger.
 const BETTER: f64 = 1.5;
 /// Failures after which an end is closed.
 const FAILURES: u8 = 3;
-/// Most blocks of the frontier for which poses are tried in a tick, and the headings for each whisker.
-const TRIED: usize = 1;
-const HEADINGS: usize = 8;
+/// Most blocks of the frontier whose poses are tried in a tick.
+const TRIED: usize = 4;
 /// Positions where shafts have touched that are remembered, and their least distance (m).
 const PLACES: usize = 64;
 const APART: f64 = 10e-3;
@@ -68,6 +67,8 @@ const APART: f64 = 10e-3;
 struct Candidate {
     index: usize,
     side: f64,
+    /// True if the tip is farther to the side than the body, so that the whisker can follow a surface beside it.
+    is_beside: bool,
     /// Straight tip (m, body frame), mounting direction and the usual direction of a surface's normal (rad).
     tip_body: Vector2,
     direction_body: f64,
@@ -78,6 +79,8 @@ struct Candidate {
 #[derive(Debug, Clone)]
 pub(super) struct Targets {
     whiskers: Vec<Candidate>,
+    /// Distance (m) of the nose ahead of the centre of mass.
+    nose: f64,
     pace: Pace,
     /// Blocks within which a touch sees something new.
     reach: i32,
@@ -113,6 +116,7 @@ impl Targets {
     /// Creates the choice for whiskers with their indices in the policy.
     pub(super) fn new<'w>(
         whiskers: impl Iterator<Item = (usize, &'w Whisker)>,
+        platform: &Platform,
         pace: Pace,
         block: f64,
         ends: usize,
@@ -124,6 +128,8 @@ impl Targets {
             Candidate {
                 index,
                 side: whisker.side(),
+                is_beside: base.point_to_world(Point2::new(whisker.shaft.length, 0.0)).y.abs()
+                    > 0.5 * math::max(platform.tail_width, platform.nose_width),
                 tip_body: base.point_to_world(Point2::new(whisker.shaft.length, 0.0)).coords,
                 direction_body: whisker.direction_body,
                 usual_normal: whisker.usual_normal(),
@@ -134,6 +140,7 @@ impl Targets {
         let reach = (0.5 * longest / block).ceil().clamp(1.0, 8.0) as i32;
         Self {
             whiskers,
+            nose: platform.length - platform.centre_of_mass,
             pace,
             reach,
             block,
@@ -157,10 +164,11 @@ impl Targets {
         self.is_empty && self.current.is_none()
     }
 
-    /// Remembers a place where a shaft touches.
-    pub(super) fn touch(&mut self, place: Point2, normal: Vector2) {
+    /// Remembers a position where something was felt.
+    pub(super) fn touch(&mut self, place: Point2, normal: Vector2, frontier: &Frontier, grid: super::grid::Grid) {
         let is_known = self.touched.iter().any(|(known, _)| (known - place).norm() < APART);
-        if !is_known && self.touched.len() < PLACES {
+        let is_closed = Frontier::block_at(grid, place).is_none_or(|(column, row)| frontier.is_closed(column, row));
+        if !is_known && !is_closed && self.touched.len() < PLACES {
             self.touched.push((place, normal));
         }
     }
@@ -189,8 +197,8 @@ impl Targets {
         let is_end = frontier.update(known.cells, |frontier, block| {
             let place = Frontier::centre(known.cells.grid, block);
             let seen = f64::from(frontier.unknown_around(block, self.reach)) * math::square(self.block);
-            let way = (place - known.body.position).norm() / self.pace.proved.0;
-            let value = seen / (BASE_TIME + way);
+            let way = (place - known.body.position).norm() + (place - known.cells.grid.middle()).norm();
+            let value = seen / (BASE_TIME + way / self.pace.proved.0);
             let is_better = best.is_none_or(|best: Target| best.kind == TargetKind::Frontier && value > best.value);
             if is_better && tried < TRIED {
                 tried += 1;
@@ -211,6 +219,11 @@ impl Targets {
     /// Takes the best target of a pass, unless the current one is still about as good.
     fn choose(&mut self, best: Option<Target>, known: Known<'_>, frontier: &Frontier) {
         let kept = self.current.filter(|current| self.is_valid(current, known, frontier));
+        // The body has moved since the target was valued.
+        let kept = kept.and_then(|kept| {
+            let seen = self.seen(frontier, known.cells.grid, kept.place);
+            self.rated(known, Target { value: seen, ..kept })
+        });
         self.current = match (kept, best) {
             (Some(kept), Some(best)) if best.kind < kept.kind => Some(best),
             (Some(kept), Some(best)) if best.kind == kept.kind && best.value > BETTER * kept.value => Some(best),
@@ -256,7 +269,7 @@ impl Targets {
             .retain(|(place, _)| !known.contours.points().iter().any(|point| (point.place - place).norm() < APART));
         for index in 0..self.touched.len() {
             let (place, normal) = self.touched[index];
-            let target = self.whiskers.iter().filter_map(|whisker| {
+            let target = self.whiskers.iter().filter(|whisker| whisker.is_beside).filter_map(|whisker| {
                 self.touching(known, frontier, whisker, TargetKind::Untraced, (place, normal), place)
             });
             self.best = target.fold(self.best, |best, target| Some(better(best, target)));
@@ -269,7 +282,7 @@ impl Targets {
         // The body goes along the contour with the surface on one side.
         let side = -perpendicular(end.outwards).dot(&end.normal).signum();
         let touched = end.place - OVERLAP * end.outwards;
-        let whiskers = self.whiskers.iter().filter(|whisker| whisker.side * side > 0.0);
+        let whiskers = self.whiskers.iter().filter(|whisker| whisker.is_beside && whisker.side * side > 0.0);
         let target = whiskers
             .filter_map(|whisker| self.touching(known, frontier, whisker, kind, (end.place, end.normal), touched))
             .max_by(|a, b| a.value.total_cmp(&b.value))?;
@@ -289,10 +302,14 @@ impl Targets {
         let heading = math::atan2(normal.y, normal.x) - whisker.direction_body - whisker.side * whisker.usual_normal;
         let tip = touched + BEFORE * normal;
         let pose = with_tip(whisker, tip, heading);
-        let seen =
-            Frontier::block_at(known.cells.grid, place).map_or(0, |block| frontier.unknown_around(block, self.reach));
-        let seen = math::max(f64::from(seen), 1.0) * math::square(self.block);
+        let seen = self.seen(frontier, known.cells.grid, place);
         self.rated(known, Target { kind, place, normal, whisker: whisker.index, pose, value: seen, end: None })
+    }
+
+    /// Unknown area (m²) that a whisker at a place would see, at least that of a block.
+    fn seen(&self, frontier: &Frontier, grid: super::grid::Grid, place: Point2) -> f64 {
+        let blocks = Frontier::block_at(grid, place).map_or(0, |block| frontier.unknown_around(block, self.reach));
+        math::max(f64::from(blocks), 1.0) * math::square(self.block)
     }
 
     /// A target that looks at a block of the frontier.
@@ -305,23 +322,13 @@ impl Targets {
             .filter(|(x, y)| frontier.get(block.0 + x, block.1 + y) == Block::Free);
         let normal = free.map(|(x, y)| Vector2::new(f64::from(x), f64::from(y))).sum::<Vector2>();
         let normal = normal.try_normalize(0.5).unwrap_or_else(|| Vector2::new(1.0, 0.0));
-        let tip = place - BEYOND * normal;
-        let poses = self.whiskers.iter().flat_map(|whisker| {
-            (0..HEADINGS).map(move |index| {
-                let heading = std::f64::consts::TAU * index as f64 / HEADINGS as f64;
-                (whisker.index, with_tip(whisker, tip, heading))
-            })
-        });
-        let target = |(whisker, pose)| Target {
-            kind: TargetKind::Frontier,
-            place,
-            normal,
-            whisker,
-            pose,
-            value: seen,
-            end: None,
+        // The nose is before the block, so that the body drives into the unknown ground.
+        let pose = Pose {
+            position: place + (self.nose + BEFORE_UNKNOWN) * normal,
+            heading: math::atan2(-normal.y, -normal.x),
         };
-        poses.filter_map(|pose| self.rated(known, target(pose))).max_by(|a, b| a.value.total_cmp(&b.value))
+        let whisker = self.whiskers.first()?.index;
+        self.rated(known, Target { kind: TargetKind::Frontier, place, normal, whisker, pose, value: seen, end: None })
     }
 
     /// A target whose value is its newly seen area, with that over the time. `None` if its pose is blocked, or in ground near
@@ -335,7 +342,12 @@ impl Targets {
         };
         let way = (target.pose.position - known.body.position).norm() / self.pace.proved.0;
         let turn = turn_between(known.body.heading, target.pose.heading).abs() / self.pace.proved.1;
-        is_allowed.then_some(Target { value: target.value / (BASE_TIME + way + turn), ..target })
+        // Looks begin near the start, so that the known ground grows compactly and later routes are short.
+        let out = match target.kind {
+            TargetKind::Frontier => (target.place - known.cells.grid.middle()).norm() / self.pace.proved.0,
+            _ => 0.0,
+        };
+        is_allowed.then_some(Target { value: target.value / (BASE_TIME + way + turn + out), ..target })
     }
 }
 

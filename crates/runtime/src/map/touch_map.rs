@@ -108,7 +108,7 @@ impl Map {
         Ok(Self {
             settings,
             frontier: Frontier::new(grid),
-            targets: Targets::new(targets, settings.pace, block, 2 * MOST_PIECES),
+            targets: Targets::new(targets, platform, settings.pace, block, 2 * MOST_PIECES),
             route: Route::new(Lattice::new(grid, clear_outline, outline_body), settings.pace),
             cells: Cells::new(grid),
             near: NearSurfaces::new(grid, longest),
@@ -177,7 +177,7 @@ impl Map {
             {
                 self.near.add(cell);
                 self.cells.blocked.fill(cell.1, cell.0, cell.0);
-                self.targets.touch(contact.place, contact.normal);
+                self.targets.touch(contact.place, contact.normal, &self.frontier, self.cells.grid);
             }
         }
     }
