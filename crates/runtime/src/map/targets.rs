@@ -197,8 +197,9 @@ impl Targets {
         let is_end = frontier.update(known.cells, |frontier, block| {
             let place = Frontier::centre(known.cells.grid, block);
             let seen = f64::from(frontier.unknown_around(block, self.reach)) * math::square(self.block);
-            let way = (place - known.body.position).norm() + (place - known.cells.grid.middle()).norm();
-            let value = seen / (BASE_TIME + way / self.pace.proved.0);
+            let way = (place - known.body.position).norm() / self.pace.proved.0
+                + (place - known.cells.grid.middle()).norm() / self.pace.unknown.0;
+            let value = seen / (BASE_TIME + way);
             let is_better = best.is_none_or(|best: Target| best.kind == TargetKind::Frontier && value > best.value);
             if is_better && tried < TRIED {
                 tried += 1;
@@ -342,9 +343,10 @@ impl Targets {
         };
         let way = (target.pose.position - known.body.position).norm() / self.pace.proved.0;
         let turn = turn_between(known.body.heading, target.pose.heading).abs() / self.pace.proved.1;
-        // Looks begin near the start, so that the known ground grows compactly and later routes are short.
+        // Looks begin near the start, so that the known ground grows compactly. Ground that is left behind has to be looked at later,
+        // and the body then goes through the unknown ground between.
         let out = match target.kind {
-            TargetKind::Frontier => (target.place - known.cells.grid.middle()).norm() / self.pace.proved.0,
+            TargetKind::Frontier => (target.place - known.cells.grid.middle()).norm() / self.pace.unknown.0,
             _ => 0.0,
         };
         is_allowed.then_some(Target { value: target.value / (BASE_TIME + way + turn + out), ..target })
