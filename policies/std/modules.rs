@@ -18,5 +18,6 @@
     ("shaft", include_str!("shaft.fsm")),
     ("sweep", include_str!("sweep.fsm")),
     ("swipe", include_str!("swipe.fsm")),
+    ("tracing", include_str!("tracing.fsm")),
     ("tunnel", include_str!("tunnel.fsm")),
 ]

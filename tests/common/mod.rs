@@ -7,7 +7,8 @@ use std::sync::Arc;
 use vibrissa_language::compile;
 use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::machine::{
-    Action, BodyScalar, ContourVector, Machine, Mark, Program, Senses, WhiskerScalar, WhiskerVector,
+    Action, BodyScalar, ContourVector, Machine, MapQuestion, MapScalar, MapVector, Mark, Program, Senses, WhiskerScalar,
+    WhiskerVector,
 };
 use vibrissa_text::diagnostic::{Colour, Source, terminal};
 
@@ -41,6 +42,8 @@ pub struct Script {
     pub marked: Vec<(usize, Mark)>,
     /// Positions with their contours, as bits. All numbers that are none are alike.
     pub positions: Vec<(usize, [u64; 2])>,
+    /// What the map was told, as bits: an event and its numbers.
+    pub told: Vec<(&'static str, Vec<u64>)>,
 }
 
 impl Script {
@@ -53,6 +56,7 @@ impl Script {
             recorded: Vec::new(),
             marked: Vec::new(),
             positions: Vec::new(),
+            told: Vec::new(),
         }
     }
 
@@ -65,6 +69,11 @@ impl Script {
         let tick = self.ticks.get(self.now).or(self.ticks.last()).unwrap();
         tick.get(whisker).copied().unwrap_or_default()
     }
+}
+
+/// The bits of a number. All that are none are alike.
+fn bits(number: f64) -> u64 {
+    if number.is_nan() { u64::MAX } else { number.to_bits() }
 }
 
 impl Senses for Script {
@@ -140,8 +149,53 @@ impl Senses for Script {
     }
 
     fn record_position(&mut self, contour: usize, position: Vector2) {
-        let bits = |part: f64| if part.is_nan() { u64::MAX } else { part.to_bits() };
         self.positions.push((contour, [bits(position.x), bits(position.y)]));
+    }
+
+    /// It depends on what the map was told in this run, so that a program must not read too early or too late.
+    fn map(&self, quantity: MapScalar) -> f64 {
+        let told = self.told.len();
+        match quantity {
+            MapScalar::Unknown => 0.02,
+            MapScalar::IsComplete => f64::from(u8::from(told % 5 == 4)),
+            MapScalar::HasNext => f64::from(u8::from(told % 2 == 0)),
+            MapScalar::NextIsSurface => f64::from(u8::from(told % 3 == 0)),
+            MapScalar::NextSide => 1.0,
+            MapScalar::NextHeading => 0.1 * told as f64,
+            MapScalar::RouteSpeed => 0.06,
+            MapScalar::RouteYawRate => -0.3,
+            MapScalar::RouteIsDone => f64::from(u8::from(self.now % 3 == 2)),
+            MapScalar::RouteIsLost => f64::from(u8::from(self.now % 4 == 3)),
+        }
+    }
+
+    fn map_vector(&self, quantity: MapVector) -> Vector2 {
+        match quantity {
+            MapVector::NextPlace => Vector2::new(0.5, 0.25 * self.told.len() as f64),
+            MapVector::NextNormal => Vector2::new(-0.6, 0.8),
+            MapVector::NextPosition => Vector2::new(0.4, 0.1),
+            MapVector::RouteDirection => Vector2::new(0.8, 0.6),
+        }
+    }
+
+    fn map_holds(&self, question: MapQuestion, position: Vector2, heading: f64) -> bool {
+        match question {
+            MapQuestion::IsFree => position.x > 0.0,
+            MapQuestion::IsClear => position.y > heading,
+            MapQuestion::IsTraced => position.x > position.y,
+        }
+    }
+
+    fn go_to(&mut self, position: Vector2, heading: f64) {
+        self.told.push(("go_to", [position.x, position.y, heading].map(bits).to_vec()));
+    }
+
+    fn give_up(&mut self) {
+        self.told.push(("give_up", Vec::new()));
+    }
+
+    fn felt(&mut self, position: Vector2, normal: Vector2) {
+        self.told.push(("felt", [position.x, position.y, normal.x, normal.y].map(bits).to_vec()));
     }
 
     fn mark(&mut self, whisker: usize, mark: Mark) {

@@ -2,7 +2,7 @@
 
 use vibrissa_runtime::geometry::{Vector2, rotate, wrap};
 use vibrissa_runtime::machine::{
-    Action, BodyScalar, ContourVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector,
+    Action, BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector,
 };
 use vibrissa_runtime::math;
 
@@ -139,6 +139,11 @@ impl Interpreter<'_> {
             }
             Expression::Body("shortfall") => Value::Number(self.senses.body(BodyScalar::Shortfall)),
             Expression::Body(_) => Value::Vector(self.senses.body_position()),
+            Expression::Map(member, values) => {
+                self.seen("the map", Some(place.part));
+                let values = self.values(values, place);
+                self.of_map(member, &values)
+            }
             Expression::Member(owner, part @ ("x" | "y"), _) => {
                 self.seen("a component", Some(place.part));
                 let vector = self.value(owner, place).vector();
@@ -364,6 +369,15 @@ impl Interpreter<'_> {
                 self.senses.record_position(*contour, position);
                 self.seen("record in a contour", Some(place.part));
             }
+            Statement::TellMap(event, values) => {
+                let values = self.values(values, place);
+                match (*event, values.as_slice()) {
+                    ("go_to", [position, heading]) => self.senses.go_to(position.vector(), heading.number()),
+                    ("felt", [position, normal]) => self.senses.felt(position.vector(), normal.vector()),
+                    _ => self.senses.give_up(),
+                }
+                self.seen("tell map", Some(place.part));
+            }
             Statement::Plot(of, value) => {
                 let value = self.value(value, place);
                 self.plotted.insert(plot_name(*of), value.numbers());
@@ -394,6 +408,35 @@ impl Interpreter<'_> {
             }
         }
         None
+    }
+
+    /// A member of the map.
+    fn of_map(&self, member: &str, values: &[Value]) -> Value {
+        let holds = |question, heading| {
+            let position = values.first().map(|position| position.clone().vector());
+            Value::Truth(position.is_some_and(|position| self.senses.map_holds(question, position, heading)))
+        };
+        let number = |quantity| Value::Number(self.senses.map(quantity));
+        let truth = |quantity| Value::Truth(self.senses.map(quantity) > 0.5);
+        let vector = |quantity| Value::Vector(self.senses.map_vector(quantity));
+        match member {
+            "free" => holds(MapQuestion::IsFree, 0.0),
+            "traced" => holds(MapQuestion::IsTraced, 0.0),
+            "clear" => holds(MapQuestion::IsClear, values[1].clone().number()),
+            "complete" => truth(MapScalar::IsComplete),
+            "next.exists" => truth(MapScalar::HasNext),
+            "next.on_surface" => truth(MapScalar::NextIsSurface),
+            "next.side" => number(MapScalar::NextSide),
+            "next.heading" => number(MapScalar::NextHeading),
+            "next.place" => vector(MapVector::NextPlace),
+            "next.position" => vector(MapVector::NextPosition),
+            "next.normal" => vector(MapVector::NextNormal),
+            "route.arrived" => truth(MapScalar::RouteIsDone),
+            "route.lost" => truth(MapScalar::RouteIsLost),
+            "route.speed" => number(MapScalar::RouteSpeed),
+            "route.yaw_rate" => number(MapScalar::RouteYawRate),
+            _ => vector(MapVector::RouteDirection),
+        }
     }
 
     fn steer(&mut self, steer: &Steer, place: &mut Place) -> Action {

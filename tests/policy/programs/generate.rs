@@ -322,7 +322,7 @@ impl Grower<'_> {
     fn statement(&mut self, may: May, depth: u8) -> Statement {
         let memory: Vec<_> = self.known().into_iter().filter(|known| known.is_memory).collect();
         let laws: Vec<Law> = self.program.laws.iter().filter(|law| may.command || !law.commands).cloned().collect();
-        match self.pick(24) {
+        match self.pick(25) {
             0 | 1 => {
                 let r#type = self.one_of(&Type::ALL);
                 let (name, value) = (self.fresh_name(), self.expression(r#type, 2));
@@ -364,6 +364,17 @@ impl Grower<'_> {
                 let arguments = self.program.monitors[monitor].event.0.clone();
                 Statement::Tell(monitor, self.values(&arguments, 2), self.site())
             }
+            23 if may.command || may.set => match self.pick(3) {
+                0 => Statement::TellMap("give_up", Vec::new()),
+                1 => Statement::TellMap(
+                    "go_to",
+                    vec![self.expression(Type::Place, 1), self.expression(Type::Angle, 1)],
+                ),
+                _ => Statement::TellMap(
+                    "felt",
+                    vec![self.expression(Type::Place, 1), self.expression(Type::Direction, 1)],
+                ),
+            },
             21 => {
                 let of = self.one_of(&[Type::Number, Type::Length, Type::Angle, Type::Truth, Type::Choice]);
                 Statement::Plot(of, self.expression(of, 2))

@@ -188,17 +188,36 @@ impl<'g> Grower<'g> {
     /// Something that is felt.
     fn sensed(&mut self, r#type: Type) -> Expression {
         match r#type {
+            Type::Number if self.pick(3) == 0 => Expression::Map("next.side", Vec::new()),
             Type::Number => self.of_whisker(&["side", "sense"]),
             Type::Length if self.pick(3) == 0 => {
                 Expression::Body(self.one_of(&["length", "width", "nose_width", "tail_width"]))
             }
             Type::Length => self.of_whisker(&["length", "tip_deviation"]),
             Type::Angle if self.pick(3) == 0 => Expression::Body("yaw"),
+            Type::Angle if self.pick(3) == 0 => Expression::Map("next.heading", Vec::new()),
             Type::Angle => self.of_whisker(&["base_angle", "yaw", "base_angle_deviation"]),
             Type::Time if self.in_state && self.pick(2) == 0 => self.call("state_time", Vec::new()),
             Type::Time => self.call("time", Vec::new()),
             Type::Truth if self.pick(3) == 0 => member(self.expression(Type::Contour, 0), "ready"),
             Type::Truth if self.pick(3) == 0 => Expression::Body("blocked"),
+            Type::Truth if self.pick(3) == 0 => {
+                let member =
+                    self.one_of(&["complete", "next.exists", "next.on_surface", "route.arrived", "route.lost"]);
+                Expression::Map(member, Vec::new())
+            }
+            Type::Truth if self.pick(3) == 0 => match self.pick(3) {
+                0 => Expression::Map("free", vec![self.simple(Type::Place)]),
+                1 => Expression::Map("traced", vec![self.simple(Type::Place)]),
+                _ => Expression::Map("clear", vec![self.simple(Type::Place), self.quantity(Type::Angle)]),
+            },
+            Type::Speed if self.pick(2) == 0 => Expression::Map("route.speed", Vec::new()),
+            Type::Rate => Expression::Map("route.yaw_rate", Vec::new()),
+            Type::Direction if self.pick(3) == 0 => Expression::Map("next.normal", Vec::new()),
+            Type::Place if self.pick(3) == 0 => {
+                Expression::Map(self.one_of(&["next.place", "next.position"]), Vec::new())
+            }
+            Type::Vector => Expression::Map("route.direction", Vec::new()),
             Type::Speed => Expression::Body("shortfall"),
             Type::Truth => self.of_whisker(&["touching"]),
             Type::Direction => member(self.expression(Type::Contour, 0), self.one_of(&["tangent", "normal"])),
@@ -206,10 +225,8 @@ impl<'g> Grower<'g> {
             Type::Place if self.pick(3) == 0 => Expression::Body(self.one_of(&["nose", "tail"])),
             Type::Place => self.of_whisker(&["tip", "base"]),
             Type::Contour => self.of_whisker(&["contour"]),
-            Type::Vector
-            | Type::Shift
+            Type::Shift
             | Type::Whisker
-            | Type::Rate
             | Type::Frequency
             | Type::Choice
             | Type::Record

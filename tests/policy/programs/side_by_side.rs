@@ -146,6 +146,7 @@ fn run_both(
         prop_assert_eq!(&script.recorded, &interpreter.senses.recorded, "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.positions, &interpreter.senses.positions, "tick {} of\n{}", now, program.text());
         prop_assert_eq!(&script.marked, &interpreter.senses.marked, "tick {} of\n{}", now, program.text());
+        prop_assert_eq!(&script.told, &interpreter.senses.told, "tick {} of\n{}", now, program.text());
     }
     interpreter.seen("five ticks that steer", (steers >= 5).then_some("a run"));
     interpreter.seen("ten ticks without a failure", (lasted >= 10).then_some("a run"));

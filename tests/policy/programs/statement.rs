@@ -12,6 +12,8 @@ pub(crate) enum Statement {
     Do(String, Vec<Expression>, usize),
     /// A monitor, the values that its event is given, and the number of this use.
     Tell(usize, Vec<Expression>, usize),
+    /// Something that the map is told, and its values.
+    TellMap(&'static str, Vec<Expression>),
     Record(Expression),
     /// A position, and the number of the contour that gets it.
     RecordPosition(Expression, usize),
@@ -55,6 +57,8 @@ impl Statement {
             }
             Self::Do(law, values, _) => format!("do {law}({})", list(values)),
             Self::Tell(monitor, values, _) => format!("tell {}", call(&format!("M{monitor}.e"), values)),
+            Self::TellMap(event, values) if values.is_empty() => format!("tell map.{event}"),
+            Self::TellMap(event, values) => format!("tell map.{}", call(event, values)),
             Self::RecordPosition(position, contour) => format!("record {} in c{contour}", position.text()),
             Self::Record(whisker) => format!("record {}", whisker.text()),
             Self::Plot(of, value) => format!("plot {} = {}", plot_name(*of), value.text()),

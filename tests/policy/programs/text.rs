@@ -238,6 +238,8 @@ impl Expression {
             Self::Name(name) => name.clone(),
             Self::Call(name, values, _) => call(name, values),
             Self::Body(member) => format!("body.{member}"),
+            Self::Map(member, values) if values.is_empty() => format!("map.{member}"),
+            Self::Map(member, values) => format!("map.{}", call(member, values)),
             Self::Member(owner, member, values) => call(&format!("{}.{member}", owner.at(ATOM)), values),
             Self::Named(name, value) => format!("{name}: {}", value.text()),
             Self::Omitted(_) => String::new(),

@@ -64,6 +64,8 @@ pub(crate) enum Expression {
     /// A function or a derived value. Every use has a number of its own, for what it remembers.
     Call(String, Vec<Expression>, usize),
     Body(&'static str),
+    /// A member of the map, with all names before it, and its values.
+    Map(&'static str, Vec<Expression>),
     Member(Box<Expression>, &'static str, Vec<Expression>),
     /// The value of a call for the argument with this name.
     Named(String, Box<Expression>),

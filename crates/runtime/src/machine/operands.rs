@@ -147,7 +147,10 @@ impl Op {
     /// True if the operation changes what later operations of the same tick sense.
     #[must_use]
     pub fn changes_senses(self) -> bool {
-        matches!(self, Self::Record { .. } | Self::RecordPosition { .. } | Self::GoTo { .. } | Self::GiveUp)
+        matches!(
+            self,
+            Self::Record { .. } | Self::RecordPosition { .. } | Self::GoTo { .. } | Self::GiveUp | Self::Felt { .. }
+        )
     }
 
     /// True if the operation records, marks, tells the map something or gives a command.

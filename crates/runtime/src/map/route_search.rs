@@ -18,9 +18,11 @@ const MOST_OPEN: usize = 1 << 15;
 pub(super) const MOST_STEPS: usize = 1024;
 /// Unit of costs (s).
 const UNIT: f64 = 10e-3;
-/// Additional cost of a first move into unproved ground that does not lead ahead, in units. It is more than that of turning round, and
-/// such a move remains possible where a body can only leave backwards.
-const UNGUARDED: u32 = 2000;
+/// Additional cost of a move into unproved ground that does not lead ahead, in units. It is that of turning round in unknown ground, so
+/// the body rather turns, where it can.
+const UNGUARDED: u32 = 500;
+/// Strides to the farthest pose at which a route may begin.
+const FARTHEST_START: i32 = 4;
 /// Factor, in halves, by which the estimate of the time that is left counts more. A route is then at most so much longer than the
 /// shortest one, and the search expands a fraction of the poses.
 const WEIGHT_IN_HALVES: u32 = 3;
@@ -157,12 +159,31 @@ impl RouteSearch {
         self.goal_node = goal_node;
         self.least = [0, 4, 8].map(|step| self.pace.cost(Ground::Proved, lattice.size(grid, step)).unwrap_or(1));
         let Some(nearest) = lattice.nearest(grid, start) else { return Progress::Failed(RouteError::Enclosed) };
-        let around =
-            (0..3).flat_map(|turn| (-1..=1).flat_map(move |down| (-1..=1).map(move |across| (turn, across, down))));
+        // Where all poses nearby are blocked, as after several stops, the body goes straight to one that is farther away.
+        for reach in [1, FARTHEST_START] {
+            if self.open.is_empty() {
+                self.leave(lattice, cells, near, (start, nearest), reach);
+            }
+        }
+        if self.open.is_empty() { Progress::Failed(RouteError::Enclosed) } else { Progress::Searching }
+    }
+
+    /// Reaches the poses within so many strides of the pose of the lattice that is nearest to the start.
+    fn leave(
+        &mut self,
+        lattice: &Lattice,
+        cells: &Cells,
+        near: &NearSurfaces,
+        (start, nearest): (Pose, Node),
+        reach: i32,
+    ) {
+        let around = (0..3).flat_map(|turn| {
+            (-reach..=reach).flat_map(move |down| (-reach..=reach).map(move |across| (turn, across, down)))
+        });
         for (turn, across, down) in around {
             let heading = (nearest.heading + HEADINGS - 1 + turn) % HEADINGS;
             let node = Node { column: nearest.column + across, row: nearest.row + down, heading };
-            let pose = lattice.pose(grid, node);
+            let pose = lattice.pose(cells.grid, node);
             // The body may leave the place where it is also near a surface.
             let ground = lattice.ground_leaving(cells, near, start, pose);
             let size = ((pose.position - start.position).norm(), turn_between(start.heading, pose.heading).abs());
@@ -171,12 +192,11 @@ impl RouteSearch {
                 .cost(ground, size)
                 .or_else(|| Pace { near_surface: self.pace.unknown, ..self.pace }.cost(ground, size));
             let is_guarded = ground == Ground::Proved || leads_ahead(start.heading, pose.position - start.position);
-            if let (Some(cost), Some(_)) = (cost, lattice.nearest(grid, pose)) {
+            if let (Some(cost), Some(_)) = (cost, lattice.nearest(cells.grid, pose)) {
                 let cost = if is_guarded { cost } else { cost + UNGUARDED };
                 self.reach(lattice.key(node), cost, MOVES, self.estimate(node));
             }
         }
-        if self.open.is_empty() { Progress::Failed(RouteError::Enclosed) } else { Progress::Searching }
     }
 
     /// Makes at most so many expansions.
@@ -209,13 +229,12 @@ impl RouteSearch {
                     continue;
                 }
                 let ground = lattice.ground(cells, near, node, step);
-                // Unproved ground is entered only with the nose ahead.
-                if ground != Ground::Proved && !lattice.is_ahead(node, step) {
-                    continue;
-                }
+                // Unproved ground is entered with the nose ahead, unless there is no other way.
+                let is_guarded = ground == Ground::Proved || lattice.is_ahead(node, step);
+                let extra = if is_guarded { 0 } else { UNGUARDED };
                 if let Some(more) = self.pace.cost(ground, lattice.size(cells.grid, step)) {
                     let estimate = self.estimate(next);
-                    if !self.reach(number, u32::from(cost) + more, step, estimate) {
+                    if !self.reach(number, u32::from(cost) + more + extra, step, estimate) {
                         return Progress::Failed(RouteError::TooFar);
                     }
                 }
