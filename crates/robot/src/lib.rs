@@ -35,6 +35,7 @@ pub mod mqtt;
 pub mod program;
 #[cfg(feature = "recording")]
 pub mod recording;
+pub mod sensor;
 #[cfg(all(feature = "mqtt", feature = "recording"))]
 pub mod services;
 #[cfg(feature = "store")]

@@ -1,7 +1,5 @@
 //! A round: one reading of every board on a bus.
 
-use vibrissa_mlx90393::{Axis, Measurement, RawRead, ReadError};
-
 use crate::config::MAX_BOARDS;
 use crate::fault::FaultKind;
 
@@ -28,7 +26,43 @@ pub struct BoardReading {
     /// The result.
     pub state: ReadingState,
     /// The bytes on the bus.
-    pub raw: RawRead,
+    pub raw: RawBytes,
+}
+
+/// Received bytes of a reading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RawBytes {
+    /// The bytes. Those after `length` are 0.
+    pub bytes: [u8; 9],
+    /// Number of received bytes.
+    pub length: u8,
+}
+
+impl RawBytes {
+    /// Copies bytes. Those after the last that has room are omitted.
+    #[must_use]
+    pub fn from_bytes(received: &[u8]) -> Self {
+        let mut raw = Self::default();
+        for (to, from) in raw.bytes.iter_mut().zip(received) {
+            *to = *from;
+            raw.length += 1;
+        }
+        raw
+    }
+
+    /// The received bytes.
+    #[must_use]
+    pub fn as_bytes(&self) -> &[u8] {
+        self.bytes.get(..usize::from(self.length)).unwrap_or(&self.bytes)
+    }
+}
+
+impl BoardReading {
+    /// A reading without bytes.
+    #[must_use]
+    pub fn without_bytes(state: ReadingState) -> Self {
+        Self { state, raw: RawBytes::default() }
+    }
 }
 
 /// The result of reading a board.
@@ -49,23 +83,6 @@ pub enum ReadingState {
 }
 
 impl ReadingState {
-    /// The result of a read of the driver. It depends only on the received bytes, if there are any, except for a wrapped
-    /// field, which the driver notices by the readings before.
-    #[must_use]
-    pub fn of<E>(read: &Result<Measurement, ReadError<E>>) -> Self {
-        match read {
-            Ok(measurement) => match measurement.y {
-                Some(_) if measurement.is_saturated(Axis::Y) => Self::Saturated,
-                Some(counts) => Self::Fresh(counts),
-                None => Self::Garbled,
-            },
-            Err(ReadError::Stale { .. }) => Self::Stale,
-            Err(ReadError::Garbled { .. }) => Self::Garbled,
-            Err(ReadError::ModeLost { .. } | ReadError::Reset { .. }) => Self::Lost,
-            Err(ReadError::Bus(_)) => Self::Silent,
-        }
-    }
-
     /// The value in counts, if it is new and valid.
     #[must_use]
     pub fn counts(self) -> Option<i32> {
