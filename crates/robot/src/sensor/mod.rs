@@ -8,7 +8,7 @@ mod provides;
 use serde::{Deserialize, Serialize};
 use vibrissa_runtime::units::Key;
 use vibrissa_text::diagnostic::Source;
-use vibrissa_yaml::{Node, Placed};
+use vibrissa_yaml::{Entry, Node, Placed};
 
 #[cfg(feature = "emulation")]
 pub use provides::EmulatedBoard;
@@ -62,11 +62,12 @@ macro_rules! sensors {
         impl SensorConfig {
             /// Reads the section.
             pub(crate) fn read(source: &Source, section: &Placed<Node>) -> Result<Self, ConfigError> {
-                let names: &[&str] = &[$(stringify!($name)),*];
-                if names.iter().any(|name| section.entry(name).is_some()) {
-                    return crate::config::read(source, section);
+                match only_entry(section) {
+                    $(Some(entry) if entry.key.value == stringify!($name) => {
+                        crate::config::read(source, &entry.value).map(Self::$Name)
+                    })*
+                    _ => crate::config::read(source, section).map(Self::$First),
                 }
-                Ok(Self::$First(crate::config::read(source, section)?))
             }
 
             /// Path of the keys of the sensor in the configuration.
@@ -115,6 +116,12 @@ macro_rules! sensors {
 
 sensors! { $
     mlx90393: Mlx90393,
+}
+
+/// The entry of a mapping that has no other.
+fn only_entry(section: &Placed<Node>) -> Option<&Entry> {
+    let Node::Mapping(entries) = &section.value else { return None };
+    <&[Entry; 1]>::try_from(entries.as_slice()).ok().map(|[entry]| entry)
 }
 
 impl SensorConfig {
