@@ -27,6 +27,8 @@ pub mod drive;
 #[cfg(feature = "emulation")]
 pub mod emulation;
 pub mod fault;
+#[cfg(any(feature = "recording", feature = "store"))]
+mod hex;
 pub mod histogram;
 pub mod link;
 #[cfg(feature = "mqtt")]

@@ -187,7 +187,7 @@ impl From<&BoardReading> for BoardMessage {
             ReadingState::Silent => BoardState::Silent,
             ReadingState::Lost => BoardState::Lost,
         };
-        let raw = super::hex::encode(reading.raw.as_bytes());
+        let raw = crate::hex::encode(reading.raw.as_bytes());
         Self { state, counts: reading.state.counts().unwrap_or(0), raw }
     }
 }
@@ -207,7 +207,7 @@ impl BoardMessage {
     /// The reading by the driver's decoding. `None` if the bytes are no hexadecimal digits, or absent where the bus has
     /// answered.
     fn decoded(&self, sensor: &SensorModel) -> Option<BoardReading> {
-        let bytes = super::hex::decode(&self.raw)?;
+        let bytes = crate::hex::decode(&self.raw)?;
         let raw = RawBytes::from_bytes(&bytes);
         let state = match (bytes.is_empty(), self.recorded()) {
             (false, _) => sensor.decode(&bytes),
