@@ -30,6 +30,7 @@ pub mod fault;
 #[cfg(any(feature = "recording", feature = "store"))]
 mod hex;
 pub mod histogram;
+mod kinds;
 pub mod link;
 #[cfg(feature = "mqtt")]
 pub mod mqtt;
