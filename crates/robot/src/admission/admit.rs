@@ -8,7 +8,7 @@ use super::rates::Rates;
 use super::refusal::Refusal;
 use super::slower::Slower;
 use crate::config::Config;
-use crate::sensor::SensorModel;
+use crate::sensor::{Sensor, SensorModel};
 
 /// An admitted machine.
 #[derive(Debug, Clone, PartialEq)]

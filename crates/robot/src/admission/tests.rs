@@ -8,7 +8,7 @@ use vibrissa_runtime::rig::Rig;
 
 use super::{Admission, Device, Refusal, admit};
 use crate::config::{Config, MAX_ROUNDS};
-use crate::sensor::BusClock;
+use crate::sensor::{BusClock, Sensor};
 
 /// The policy `bang` with other needs.
 fn machine(needs: Needs) -> Artifact {

@@ -3,7 +3,7 @@
 use super::bus::Bus;
 use super::round::{BoardReading, ReadingState, Round};
 use crate::config::{BoardConfig, MAX_BOARDS};
-use crate::sensor::{BoardDriver, Refused, SensorDriver, SensorModel};
+use crate::sensor::{BoardDriver, Refused, Sensor, SensorDriver, SensorModel};
 
 /// Time (ns) until the bring-up of a lost board is tried again. A bring-up takes about 4 ms of the bus.
 const RETRY_NS: u64 = 100_000_000;

@@ -8,7 +8,7 @@ use super::round::Round;
 use super::transducer::Transducer;
 use super::zeroing::Zeroing;
 use crate::config::{Config, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS};
-use crate::sensor::SensorModel;
+use crate::sensor::{Sensor, SensorModel};
 
 /// Number of sample periods that are kept until all buses have delivered.
 const SLOTS: usize = 2 * MAX_ROUNDS as usize;

@@ -16,6 +16,6 @@ pub use bus::Bus;
 pub(crate) use bus::Port;
 pub use magnet::Magnet;
 pub use pose_history::{PoseHistory, StampedPose, is_plausible_pose};
-pub use round::{BoardReading, RawBytes, ReadingState, Round};
+pub use round::{BoardReading, ReadingState, Round};
 pub use transducer::Transducer;
 pub use zeroing::{Zeroing, ZeroingFault};

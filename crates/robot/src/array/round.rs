@@ -2,6 +2,7 @@
 
 use crate::config::MAX_BOARDS;
 use crate::fault::FaultKind;
+use crate::sensor::RawRead;
 
 /// The readings of all boards on a bus in one sample period.
 #[derive(Debug, Clone, Copy)]
@@ -26,42 +27,14 @@ pub struct BoardReading {
     /// The result.
     pub state: ReadingState,
     /// The bytes on the bus.
-    pub raw: RawBytes,
-}
-
-/// Received bytes of a reading.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct RawBytes {
-    /// The bytes. Those after `length` are 0.
-    pub bytes: [u8; 9],
-    /// Number of received bytes.
-    pub length: u8,
-}
-
-impl RawBytes {
-    /// Copies bytes. Those after the last that has room are omitted.
-    #[must_use]
-    pub fn from_bytes(received: &[u8]) -> Self {
-        let mut raw = Self::default();
-        for (to, from) in raw.bytes.iter_mut().zip(received) {
-            *to = *from;
-            raw.length += 1;
-        }
-        raw
-    }
-
-    /// The received bytes.
-    #[must_use]
-    pub fn as_bytes(&self) -> &[u8] {
-        self.bytes.get(..usize::from(self.length)).unwrap_or(&self.bytes)
-    }
+    pub raw: RawRead,
 }
 
 impl BoardReading {
     /// A reading without bytes.
     #[must_use]
     pub fn without_bytes(state: ReadingState) -> Self {
-        Self { state, raw: RawBytes::default() }
+        Self { state, raw: RawRead::from_bytes(&[]) }
     }
 }
 

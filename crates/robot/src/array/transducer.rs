@@ -4,7 +4,7 @@ use vibrissa_runtime::rig::Whisker;
 
 use super::magnet::Magnet;
 use crate::config::{BoardConfig, Config, ConfigError};
-use crate::sensor::SensorModel;
+use crate::sensor::{Sensor, SensorModel};
 
 /// Conversion of the counts of a sensor to the base angle of its whisker.
 ///

@@ -7,6 +7,7 @@ use vibrissa_yaml::{Node, Placed};
 
 use super::{ActuatorConfig, Config, ConfigError, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS, PoseSource, device};
 use crate::array::Transducer;
+use crate::sensor::{Section, Sensor};
 
 /// Values that contradict each other, or one that is not possible.
 #[derive(Debug)]

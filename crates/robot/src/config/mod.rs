@@ -20,7 +20,7 @@ use vibrissa_runtime::rig::Rig;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 use vibrissa_yaml::{Files, Node, Placed};
 
-use crate::sensor::{SensorConfig, SensorModel};
+use crate::sensor::{Section, SensorConfig, SensorModel};
 
 pub use bus::{BoardConfig, BusConfig};
 pub use links::{ActuatorConfig, PoseConfig, PoseSource, RecordConfig};

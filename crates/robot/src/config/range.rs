@@ -4,6 +4,7 @@ use vibrissa_runtime::units::{Dimension, Key, format_si};
 
 use super::check::Inconsistency;
 use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, Timeouts};
+use crate::sensor::Section;
 
 const SPEED: Key = Key::new("speed", Dimension::SPEED, (1e-3, 100.0), "0.1 m/s");
 const YAW_RATE: Key = Key::new("yaw_rate", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "60 deg/s");

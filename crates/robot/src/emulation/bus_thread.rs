@@ -12,7 +12,7 @@ use super::scheduler::{EmulationError, Settings};
 use super::timeline::Timeline;
 use crate::array::{Acquisition, Bus, Magnet, Round};
 use crate::config::Config;
-use crate::sensor::{EmulatedBoard, SensorModel};
+use crate::sensor::{EmulatedBoard, Sensor, SensorModel};
 use crate::vitals::{Phase, Vitals};
 
 /// An acquisition thread.

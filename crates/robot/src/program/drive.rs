@@ -24,7 +24,7 @@ use super::watch::{termination, watch};
 use crate::admission::{Admission, Device, admit};
 use crate::config::{CONFIG_LIMIT, Config};
 use crate::drive::RecordSink;
-use crate::sensor::BusClock;
+use crate::sensor::{BusClock, Sensor};
 use crate::store::{DEFAULT_KEYS, DEFAULT_STORE, Keys, Store};
 use crate::telemetry::Source;
 

@@ -11,6 +11,7 @@ use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use crate::array::{Acquisition, Bus, ReadingState, period_ns};
 use crate::config::Config;
+use crate::sensor::Sensor;
 
 const EXAMPLE: &str = "Example:\n  vibrissa-robot sensors --config /etc/vibrissa/array.yaml";
 

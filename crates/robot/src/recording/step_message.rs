@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 use vibrissa_runtime::geometry::{Point2, Pose};
 
 use super::number::Number;
-use crate::array::{BoardReading, RawBytes, ReadingState, Round, StampedPose};
+use crate::array::{BoardReading, ReadingState, Round, StampedPose};
 use crate::config::MAX_BOARDS;
 use crate::drive::{StepInput, StepTime};
-use crate::sensor::SensorModel;
+use crate::sensor::{RawRead, Sensor, SensorModel};
 
 /// The inputs of a step of the control task.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -208,7 +208,7 @@ impl BoardMessage {
     /// answered.
     fn decoded(&self, sensor: &SensorModel) -> Option<BoardReading> {
         let bytes = crate::hex::decode(&self.raw)?;
-        let raw = RawBytes::from_bytes(&bytes);
+        let raw = RawRead::from_bytes(&bytes);
         let state = match (bytes.is_empty(), self.recorded()) {
             (false, _) => sensor.decode(&bytes),
             // The bus has reported an error, or the board was not read.

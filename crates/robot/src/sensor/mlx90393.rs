@@ -13,8 +13,8 @@ use vibrissa_runtime::units::{Dimension, Key};
 
 #[cfg(feature = "emulation")]
 use super::EmulatedBoard;
-use super::{BusClock, Refused, Section, Sensor, SensorDriver};
-use crate::array::{BoardReading, Bus, Port, RawBytes, ReadingState};
+use super::{BusClock, RawRead, Refused, Section, Sensor, SensorDriver};
+use crate::array::{BoardReading, Bus, Port, ReadingState};
 
 /// Bits of a status byte that give a sensor in burst mode two other modes, which is impossible.
 #[cfg(feature = "emulation")]
@@ -145,11 +145,11 @@ impl SensorDriver for Driver {
 
     fn read<B: Bus>(&mut self, bus: &mut B) -> BoardReading {
         let read = self.0.read(bus);
-        let received = match &read {
-            Ok(measurement) => measurement.raw.as_bytes(),
-            Err(error) => error.raw().map(vibrissa_mlx90393::RawRead::as_bytes).unwrap_or_default(),
+        let raw = match &read {
+            Ok(measurement) => Some(measurement.raw),
+            Err(error) => error.raw().copied(),
         };
-        BoardReading { state: state(&read), raw: RawBytes::from_bytes(received) }
+        BoardReading { state: state(&read), raw: raw.unwrap_or(RawRead::from_bytes(&[])) }
     }
 }
 
