@@ -6,7 +6,6 @@ use crate::emulated::Emulated;
 use crate::fault::{BusFault, SensorFault};
 use crate::field::FieldSource;
 use crate::sensor::EmulatedSensor;
-use crate::transcript::{RecordedTransaction, Transcript};
 use embedded_hal::i2c::{ErrorType, I2c, Operation};
 use std::num::NonZeroU32;
 
@@ -25,7 +24,6 @@ pub struct EmulatedBus<F, S: ?Sized = EmulatedSensor> {
     frequency_hz: NonZeroU32,
     overhead_ns: u64,
     fault: Option<BusFault>,
-    transcript: Option<Transcript>,
 }
 
 impl<F: FieldSource, S: Emulated + ?Sized> EmulatedBus<F, S> {
@@ -41,7 +39,7 @@ impl<F: FieldSource, S: Emulated + ?Sized> EmulatedBus<F, S> {
     #[must_use]
     pub fn with_clock(field: F, clock: EmulatedClock) -> Self {
         let (sensors, overhead_ns) = (Vec::new(), 0);
-        Self { field, clock, sensors, frequency_hz: FAST_MODE_HZ, overhead_ns, fault: None, transcript: None }
+        Self { field, clock, sensors, frequency_hz: FAST_MODE_HZ, overhead_ns, fault: None }
     }
 
     /// Adds a sensor. Of sensors with the same address, only the first answers.
@@ -53,11 +51,6 @@ impl<F: FieldSource, S: Emulated + ?Sized> EmulatedBus<F, S> {
     #[must_use]
     pub fn sensor(&self, address: u8) -> Option<&S> {
         self.sensors.iter().map(Box::as_ref).find(|sensor| sensor.address() == address)
-    }
-
-    /// The field source.
-    pub fn field_mut(&mut self) -> &mut F {
-        &mut self.field
     }
 
     /// The clock. It is shared, so it stays usable while the bus is borrowed.
@@ -119,16 +112,6 @@ impl<F: FieldSource, S: Emulated + ?Sized> EmulatedBus<F, S> {
         let now_ns = self.now_ns();
         self.find(address)?.clear(now_ns);
         Ok(())
-    }
-
-    /// Starts a transcript of all further transactions. An earlier transcript is discarded.
-    pub fn record(&mut self) {
-        self.transcript = Some(Transcript::default());
-    }
-
-    /// Ends the transcript and returns it. It is empty if none was started.
-    pub fn take_transcript(&mut self) -> Transcript {
-        self.transcript.take().unwrap_or_default()
     }
 
     fn find(&mut self, address: u8) -> Result<&mut S, EmulatedBusError> {
@@ -250,9 +233,6 @@ impl<F: FieldSource, S: Emulated + ?Sized> I2c for EmulatedBus<F, S> {
         let time_ns = self.now_ns();
         let (duration_ns, result) = self.perform(address, operations, time_ns + self.overhead_ns);
         self.clock.advance_ns(self.overhead_ns + duration_ns);
-        if let Some(transcript) = &mut self.transcript {
-            transcript.transactions.push(RecordedTransaction::new(time_ns, address, operations, result.err()));
-        }
         result
     }
 }

@@ -51,9 +51,7 @@ mod field;
 mod mode;
 mod options;
 mod registers;
-mod replay;
 mod sensor;
-mod transcript;
 
 pub use bus::EmulatedBus;
 pub use bus_error::EmulatedBusError;
@@ -62,6 +60,4 @@ pub use emulated::Emulated;
 pub use fault::{BusFault, SensorFault};
 pub use field::FieldSource;
 pub use options::SensorOptions;
-pub use replay::{ReplayBus, ReplayError};
 pub use sensor::EmulatedSensor;
-pub use transcript::{RecordedOperation, RecordedTransaction, Transcript};
