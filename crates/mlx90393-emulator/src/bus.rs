@@ -2,10 +2,10 @@
 
 use crate::bus_error::EmulatedBusError;
 use crate::clock::EmulatedClock;
+use crate::emulated::Emulated;
 use crate::fault::{BusFault, SensorFault};
 use crate::field::FieldSource;
 use crate::sensor::EmulatedSensor;
-use crate::transcript::{RecordedTransaction, Transcript};
 use embedded_hal::i2c::{ErrorType, I2c, Operation};
 use std::num::NonZeroU32;
 
@@ -17,17 +17,16 @@ const FAST_MODE_HZ: NonZeroU32 = NonZeroU32::MIN.saturating_add(399_999);
 /// A transaction takes 9 clocks per byte, addresses included, and one clock per start, repeated start and stop. A command is
 /// executed when its last byte ends.
 #[derive(Debug)]
-pub struct EmulatedBus<F> {
+pub struct EmulatedBus<F, S: ?Sized = EmulatedSensor> {
     field: F,
     clock: EmulatedClock,
-    sensors: Vec<EmulatedSensor>,
+    sensors: Vec<Box<S>>,
     frequency_hz: NonZeroU32,
     overhead_ns: u64,
     fault: Option<BusFault>,
-    transcript: Option<Transcript>,
 }
 
-impl<F: FieldSource> EmulatedBus<F> {
+impl<F: FieldSource, S: Emulated + ?Sized> EmulatedBus<F, S> {
     /// Creates a bus without sensors at 400 kHz, with its own clock at time 0.
     #[must_use]
     pub fn new(field: F) -> Self {
@@ -40,23 +39,18 @@ impl<F: FieldSource> EmulatedBus<F> {
     #[must_use]
     pub fn with_clock(field: F, clock: EmulatedClock) -> Self {
         let (sensors, overhead_ns) = (Vec::new(), 0);
-        Self { field, clock, sensors, frequency_hz: FAST_MODE_HZ, overhead_ns, fault: None, transcript: None }
+        Self { field, clock, sensors, frequency_hz: FAST_MODE_HZ, overhead_ns, fault: None }
     }
 
     /// Adds a sensor. Of sensors with the same address, only the first answers.
-    pub fn add(&mut self, sensor: EmulatedSensor) {
-        self.sensors.push(sensor);
+    pub fn add(&mut self, sensor: impl Into<Box<S>>) {
+        self.sensors.push(sensor.into());
     }
 
     /// The sensor with an address.
     #[must_use]
-    pub fn sensor(&self, address: u8) -> Option<&EmulatedSensor> {
-        self.sensors.iter().find(|sensor| sensor.options().address == address)
-    }
-
-    /// The field source.
-    pub fn field_mut(&mut self) -> &mut F {
-        &mut self.field
+    pub fn sensor(&self, address: u8) -> Option<&S> {
+        self.sensors.iter().map(Box::as_ref).find(|sensor| sensor.address() == address)
     }
 
     /// The clock. It is shared, so it stays usable while the bus is borrowed.
@@ -120,20 +114,11 @@ impl<F: FieldSource> EmulatedBus<F> {
         Ok(())
     }
 
-    /// Starts a transcript of all further transactions. An earlier transcript is discarded.
-    pub fn record(&mut self) {
-        self.transcript = Some(Transcript::default());
-    }
-
-    /// Ends the transcript and returns it. It is empty if none was started.
-    pub fn take_transcript(&mut self) -> Transcript {
-        self.transcript.take().unwrap_or_default()
-    }
-
-    fn find(&mut self, address: u8) -> Result<&mut EmulatedSensor, EmulatedBusError> {
+    fn find(&mut self, address: u8) -> Result<&mut S, EmulatedBusError> {
         self.sensors
             .iter_mut()
-            .find(|sensor| sensor.options().address == address)
+            .map(Box::as_mut)
+            .find(|sensor| sensor.address() == address)
             .ok_or(EmulatedBusError::NoAcknowledge { address })
     }
 
@@ -156,7 +141,7 @@ impl<F: FieldSource> EmulatedBus<F> {
                 None => self.fault = None,
             }
         }
-        let sensor = self.sensors.iter_mut().find(|sensor| sensor.options().address == address);
+        let sensor = self.sensors.iter_mut().map(Box::as_mut).find(|sensor| sensor.address() == address);
         let Some(sensor) = sensor.and_then(|sensor| sensor.acknowledges(start_ns).then_some(sensor)) else {
             // Start, address and stop.
             return (clocks_ns(11), Err(EmulatedBusError::NoAcknowledge { address }));
@@ -210,7 +195,7 @@ enum Phase {
 
 impl Phase {
     /// Ends the phase at a time (ns).
-    fn end(&self, sensor: &mut EmulatedSensor, now_ns: u64, field: &mut impl FieldSource) {
+    fn end(&self, sensor: &mut (impl Emulated + ?Sized), now_ns: u64, field: &mut dyn FieldSource) {
         match self {
             Self::None | Self::Read(0) => {}
             Self::Write(command) => sensor.write(command.bytes(), now_ns, field),
@@ -239,18 +224,15 @@ impl Command {
     }
 }
 
-impl<F> ErrorType for EmulatedBus<F> {
+impl<F, S: ?Sized> ErrorType for EmulatedBus<F, S> {
     type Error = EmulatedBusError;
 }
 
-impl<F: FieldSource> I2c for EmulatedBus<F> {
+impl<F: FieldSource, S: Emulated + ?Sized> I2c for EmulatedBus<F, S> {
     fn transaction(&mut self, address: u8, operations: &mut [Operation<'_>]) -> Result<(), EmulatedBusError> {
         let time_ns = self.now_ns();
         let (duration_ns, result) = self.perform(address, operations, time_ns + self.overhead_ns);
         self.clock.advance_ns(self.overhead_ns + duration_ns);
-        if let Some(transcript) = &mut self.transcript {
-            transcript.transactions.push(RecordedTransaction::new(time_ns, address, operations, result.err()));
-        }
         result
     }
 }

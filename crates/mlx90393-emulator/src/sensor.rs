@@ -2,6 +2,7 @@
 
 use crate::answer::Answer;
 use crate::counts::{end_word, field_word, temperature_word};
+use crate::emulated::Emulated;
 use crate::fault::{SensorFault, count_down};
 use crate::field::FieldSource;
 use crate::mode::{Mode, Schedule};
@@ -89,111 +90,6 @@ impl EmulatedSensor {
         self.registers.factory_trim() == u16::from(self.options.factory_trim & 0x7F)
     }
 
-    /// Adds a fault at a time (ns).
-    pub(crate) fn inject(&mut self, fault: SensorFault, now_ns: u64) {
-        match fault {
-            SensorFault::BrownOut => self.restart(now_ns),
-            SensorFault::ModeLost => self.enter(Mode::Idle),
-            SensorFault::ClockStopped => self.stopped_since_ns = self.stopped_since_ns.or(Some(now_ns)),
-            _ => self.faults.push(fault),
-        }
-    }
-
-    /// Removes all faults at a time (ns).
-    pub(crate) fn clear(&mut self, now_ns: u64) {
-        self.faults.clear();
-        if let Some(since_ns) = self.stopped_since_ns.take()
-            && let Mode::Burst(schedule) | Mode::Single(schedule) = &mut self.mode
-        {
-            schedule.postpone(now_ns.saturating_sub(since_ns));
-        }
-    }
-
-    /// True if the sensor acknowledges its address at a time (ns).
-    pub(crate) fn acknowledges(&mut self, now_ns: u64) -> bool {
-        let mut silent = false;
-        self.faults.retain_mut(|fault| match fault {
-            SensorFault::NoAcknowledge { transactions } => {
-                let lasts = count_down(transactions);
-                silent |= lasts;
-                lasts
-            }
-            _ => true,
-        });
-        !silent && now_ns >= self.busy_until_ns
-    }
-
-    /// Executes a command that ends at a time (ns).
-    pub(crate) fn write(&mut self, command: &[u8], now_ns: u64, field: &mut impl FieldSource) {
-        let idle = self.mode_bits(now_ns) == 0;
-        let accepted = match *command {
-            // Only the address, or no operation.
-            [] | [0x00] => true,
-            [code @ 0x10..=0x1F] if idle => self.start(code & 0xF, now_ns, Mode::Burst),
-            [code @ 0x30..=0x3F] if idle => self.start(code & 0xF, now_ns, Mode::Single),
-            [code @ 0x40..=0x4F] => {
-                self.answer = self.measurement(code & 0xF, now_ns, field);
-                return;
-            }
-            [0x50, address] if idle => match self.registers.get(address >> 2) {
-                Some(value) => {
-                    self.answer = Answer::status(0);
-                    self.answer.push(value);
-                    return;
-                }
-                None => false,
-            },
-            [0x60, high, low, address] if idle => self.registers.set(address >> 2, u16::from_be_bytes([high, low])),
-            [0x80] => {
-                self.enter(Mode::Idle);
-                true
-            }
-            [0xD0] if idle => {
-                self.registers = self.stored.clone();
-                true
-            }
-            [0xE0] if idle => {
-                self.stored = self.registers.clone();
-                self.busy_until_ns = now_ns + STORE_NS;
-                true
-            }
-            [0xF0] => {
-                self.restart(now_ns);
-                true
-            }
-            _ => false,
-        };
-        self.answer = Answer::status(self.mode_bits(now_ns) | if accepted { 0 } else { ERROR });
-    }
-
-    /// A byte of the answer. Index 0 is the status.
-    pub(crate) fn read(&mut self, index: usize) -> u8 {
-        let mut byte = self.answer.byte(index);
-        if index == 0 {
-            byte |= if self.reset { RESET } else { 0 };
-            byte |= if self.faults.contains(&SensorFault::CorrectedBit) { CORRECTED_BIT } else { 0 };
-            self.reset = false;
-        }
-        for fault in &self.faults {
-            if let SensorFault::BitFlip { byte: flipped, mask, answers: 1.. } = *fault
-                && flipped == index
-            {
-                byte ^= mask;
-            }
-        }
-        byte
-    }
-
-    /// Ends a read at a time (ns). Another read without a command has only a status.
-    pub(crate) fn end_read(&mut self, now_ns: u64) {
-        for fault in &mut self.faults {
-            if let SensorFault::BitFlip { answers, .. } = fault {
-                *answers = answers.saturating_sub(1);
-            }
-        }
-        self.answer = Answer::status(self.mode_bits(now_ns));
-    }
-
     /// The state after power-on.
     fn restart(&mut self, now_ns: u64) {
         self.registers = self.stored.clone();
@@ -244,7 +140,7 @@ impl EmulatedSensor {
     }
 
     /// The answer to a read of a measurement.
-    fn measurement(&mut self, nibble: u8, now_ns: u64, field: &mut impl FieldSource) -> Answer {
+    fn measurement(&mut self, nibble: u8, now_ns: u64, field: &mut dyn FieldSource) -> Answer {
         let requested = if nibble == 0 { self.registers.burst_axes() } else { nibble };
         let last = self.last_set(now_ns);
         let fresh = last > self.read_set && requested != 0;
@@ -268,7 +164,7 @@ impl EmulatedSensor {
     }
 
     /// Evaluates the requested quantities of a set.
-    fn convert(&mut self, set: u64, requested: u8, field: &mut impl FieldSource) {
+    fn convert(&mut self, set: u64, requested: u8, field: &mut dyn FieldSource) {
         let (Mode::Burst(schedule) | Mode::Single(schedule)) = &self.mode else { return };
         let noise = self.noise_microtesla(set);
         let available = requested & schedule.axes;
@@ -331,5 +227,116 @@ impl EmulatedSensor {
                 _ => 0.0,
             })
             .sum()
+    }
+}
+
+impl Emulated for EmulatedSensor {
+    fn address(&self) -> u8 {
+        self.options.address
+    }
+
+    /// Adds a fault at a time (ns).
+    fn inject(&mut self, fault: SensorFault, now_ns: u64) {
+        match fault {
+            SensorFault::BrownOut => self.restart(now_ns),
+            SensorFault::ModeLost => self.enter(Mode::Idle),
+            SensorFault::ClockStopped => self.stopped_since_ns = self.stopped_since_ns.or(Some(now_ns)),
+            _ => self.faults.push(fault),
+        }
+    }
+
+    /// Removes all faults at a time (ns).
+    fn clear(&mut self, now_ns: u64) {
+        self.faults.clear();
+        if let Some(since_ns) = self.stopped_since_ns.take()
+            && let Mode::Burst(schedule) | Mode::Single(schedule) = &mut self.mode
+        {
+            schedule.postpone(now_ns.saturating_sub(since_ns));
+        }
+    }
+
+    /// True if the sensor acknowledges its address at a time (ns).
+    fn acknowledges(&mut self, now_ns: u64) -> bool {
+        let mut silent = false;
+        self.faults.retain_mut(|fault| match fault {
+            SensorFault::NoAcknowledge { transactions } => {
+                let lasts = count_down(transactions);
+                silent |= lasts;
+                lasts
+            }
+            _ => true,
+        });
+        !silent && now_ns >= self.busy_until_ns
+    }
+
+    /// Executes a command that ends at a time (ns).
+    fn write(&mut self, command: &[u8], now_ns: u64, field: &mut dyn FieldSource) {
+        let idle = self.mode_bits(now_ns) == 0;
+        let accepted = match *command {
+            // Only the address, or no operation.
+            [] | [0x00] => true,
+            [code @ 0x10..=0x1F] if idle => self.start(code & 0xF, now_ns, Mode::Burst),
+            [code @ 0x30..=0x3F] if idle => self.start(code & 0xF, now_ns, Mode::Single),
+            [code @ 0x40..=0x4F] => {
+                self.answer = self.measurement(code & 0xF, now_ns, field);
+                return;
+            }
+            [0x50, address] if idle => match self.registers.get(address >> 2) {
+                Some(value) => {
+                    self.answer = Answer::status(0);
+                    self.answer.push(value);
+                    return;
+                }
+                None => false,
+            },
+            [0x60, high, low, address] if idle => self.registers.set(address >> 2, u16::from_be_bytes([high, low])),
+            [0x80] => {
+                self.enter(Mode::Idle);
+                true
+            }
+            [0xD0] if idle => {
+                self.registers = self.stored.clone();
+                true
+            }
+            [0xE0] if idle => {
+                self.stored = self.registers.clone();
+                self.busy_until_ns = now_ns + STORE_NS;
+                true
+            }
+            [0xF0] => {
+                self.restart(now_ns);
+                true
+            }
+            _ => false,
+        };
+        self.answer = Answer::status(self.mode_bits(now_ns) | if accepted { 0 } else { ERROR });
+    }
+
+    /// A byte of the answer. Index 0 is the status.
+    fn read(&mut self, index: usize) -> u8 {
+        let mut byte = self.answer.byte(index);
+        if index == 0 {
+            byte |= if self.reset { RESET } else { 0 };
+            byte |= if self.faults.contains(&SensorFault::CorrectedBit) { CORRECTED_BIT } else { 0 };
+            self.reset = false;
+        }
+        for fault in &self.faults {
+            if let SensorFault::BitFlip { byte: flipped, mask, answers: 1.. } = *fault
+                && flipped == index
+            {
+                byte ^= mask;
+            }
+        }
+        byte
+    }
+
+    /// Ends a read at a time (ns). Another read without a command has only a status.
+    fn end_read(&mut self, now_ns: u64) {
+        for fault in &mut self.faults {
+            if let SensorFault::BitFlip { answers, .. } = fault {
+                *answers = answers.saturating_sub(1);
+            }
+        }
+        self.answer = Answer::status(self.mode_bits(now_ns));
     }
 }

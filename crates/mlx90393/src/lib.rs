@@ -81,7 +81,6 @@ mod start;
 mod status;
 mod timing;
 mod wrap_watch;
-mod zero;
 
 pub use address::{Address, InvalidAddress};
 pub use axes::{Axes, Axis};
@@ -98,4 +97,3 @@ pub use settings::{Hall, Resolution, Resolutions, Settings, TriggerPin};
 pub use start::{StartError, StartReport};
 pub use status::Status;
 pub use timing::Interval;
-pub use zero::{Neutral, NotNeutral, Zero};

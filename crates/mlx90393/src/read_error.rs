@@ -57,12 +57,6 @@ impl<E> ReadError<E> {
             | Self::Garbled { raw, .. } => Some(raw),
         }
     }
-
-    /// True if the sensor must be started again.
-    #[must_use]
-    pub fn needs_start(&self) -> bool {
-        matches!(self, Self::ModeLost { .. } | Self::Reset { .. })
-    }
 }
 
 impl ReadError<Infallible> {

@@ -96,7 +96,7 @@ impl Sensor {
     /// Reads the last measurement in one transaction.
     ///
     /// # Errors
-    /// A [`ReadError`]. [`ReadError::needs_start`] tells if the sensor must be started again.
+    /// A [`ReadError`]. Its table in the documentation of the crate tells the reaction.
     pub fn read<I: I2c>(&mut self, bus: &mut I) -> Result<Measurement, ReadError<I::Error>> {
         let axes = self.settings.get().axes;
         let mut raw = RawRead { bytes: [0; 9], length: axes.answer_length() };

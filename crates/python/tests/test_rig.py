@@ -1,5 +1,7 @@
 """Rigs without a scenario."""
 
+import math
+
 import pytest
 from conftest import ROOT
 
@@ -99,6 +101,28 @@ def test_a_rig_shows_its_servos():
     rig = vibrissa.Rig.load(vibrissa.Text("platform: {servo: 200 ms}"))
     assert (rig.servo_s, rig.yaw_servo_s) == (0.2, 0.2)
     assert (vibrissa.Rig.load(vibrissa.Text(KEYS)).servo_s, vibrissa.Rig.load(vibrissa.Text(KEYS)).yaw_servo_s) == (0.2, 0.1)
+
+
+def test_a_rig_shows_the_keys_of_its_text():
+    keys = "platform: {mass: 700 g, yaw: {limit: 40 deg/s}}\nsensing: {friction: 0.2, forces: true}\n"
+    keys += "whiskers:\n  r0: {length: 120 mm, hinge: {stiffness: 2 N m/rad}}\n  l0: {base: [10 mm, -20 mm]}\n"
+    rig = vibrissa.Rig.load(vibrissa.Text(keys))
+    assert (rig.mass_kg, rig.friction, rig.forces) == (0.7, 0.2, True)
+    assert rig.yaw_limit_rad_s == pytest.approx(math.radians(40))
+    assert (rig.whisker_length_m, rig.whisker_hinge_stiffness_n_m_rad) == ([0.12, 0.1], [2.0, 1.0])
+    assert rig.whisker_base_m[1] == (0.01, -0.02)
+    # No whisker is tapered, so there is no radius of the tips. Those of the simulation are not known.
+    for name in ["whisker_tip_radius_m", "step_s", "nothing"]:
+        with pytest.raises(AttributeError, match=name):
+            getattr(rig, name)
+
+
+def test_every_listed_name_of_a_rig_is_another_and_has_a_value():
+    rig = vibrissa.Rig()
+    names = dir(rig)
+    assert len(names) == len(set(names)) and {"whiskers", "load", "control_rate_hz", "whisker_links"} <= set(names)
+    for name in names:
+        getattr(rig, name)
 
 
 def test_a_platform_that_drives_slowly_and_rotates_fast_follows_the_disk():

@@ -5,66 +5,51 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::config::FaultResponse;
+use crate::kinds::kinds;
 
-/// The kinds of faults.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FaultKind {
-    /// A sensor answers, but has no new value.
-    SensorStale,
-    /// A sensor does not answer, or has lost its mode. Its bring-up is tried again.
-    SensorLost,
-    /// A reading has no base angle, a pose is not a number or absurd, or a status byte is impossible.
-    InvalidReading,
-    /// A field is at the end of the sensor's range, or beyond it.
-    Saturated,
-    /// A base angle exceeds its limit.
-    AngleLimit,
-    /// A bus has completed no round. A call may be blocked.
-    BusBlocked,
-    /// The last pose is too old.
-    PoseOld,
-    /// A pose is farther from the last one than the platform can have moved. It is not taken.
-    PoseJump,
-    /// The localisation has begun a new sequence.
-    PoseRestarted,
-    /// A packet has come to the port of the poses from another sender. It is not read.
-    ForeignSender,
-    /// The actuator acknowledges no recent command.
-    LinkLost,
-    /// The MQTT broker is gone. Only telemetry needs it.
-    BrokerGone,
-    /// The control loop has not completed a tick in time.
-    ControlLate,
-    /// The machine has failed.
-    MachineFailed,
-    /// A thread has panicked.
-    Panic,
-    /// The system has asked the program to end.
-    Terminated,
+kinds! {
+    /// The kinds of faults.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum FaultKind,
+    /// The name of the kind in files and messages.
+    fn name {
+        /// A sensor answers, but has no new value.
+        SensorStale = "sensor_stale",
+        /// A sensor does not answer, or has lost its mode. Its bring-up is tried again.
+        SensorLost = "sensor_lost",
+        /// A reading has no base angle, a pose is not a number or absurd, or a status byte is impossible.
+        InvalidReading = "invalid_reading",
+        /// A field is at the end of the sensor's range, or beyond it.
+        Saturated = "saturated",
+        /// A base angle exceeds its limit.
+        AngleLimit = "angle_limit",
+        /// A bus has completed no round. A call may be blocked.
+        BusBlocked = "bus_blocked",
+        /// The last pose is too old.
+        PoseOld = "pose_old",
+        /// A pose is farther from the last one than the platform can have moved. It is not taken.
+        PoseJump = "pose_jump",
+        /// The localisation has begun a new sequence.
+        PoseRestarted = "pose_restarted",
+        /// A packet has come to the port of the poses from another sender. It is not read.
+        ForeignSender = "foreign_sender",
+        /// The actuator acknowledges no recent command.
+        LinkLost = "link_lost",
+        /// The MQTT broker is gone. Only telemetry needs it.
+        BrokerGone = "broker_gone",
+        /// The control loop has not completed a tick in time.
+        ControlLate = "control_late",
+        /// The machine has failed.
+        MachineFailed = "machine_failed",
+        /// A thread has panicked.
+        Panic = "panic",
+        /// The system has asked the program to end.
+        Terminated = "terminated",
+    }
 }
 
 impl FaultKind {
-    /// All kinds.
-    pub const ALL: [Self; 16] = [
-        Self::SensorStale,
-        Self::SensorLost,
-        Self::InvalidReading,
-        Self::Saturated,
-        Self::AngleLimit,
-        Self::BusBlocked,
-        Self::PoseOld,
-        Self::PoseJump,
-        Self::PoseRestarted,
-        Self::ForeignSender,
-        Self::LinkLost,
-        Self::BrokerGone,
-        Self::ControlLate,
-        Self::MachineFailed,
-        Self::Panic,
-        Self::Terminated,
-    ];
-
     /// The response to a fault of this kind, unless the configuration has another one.
     #[must_use]
     pub fn default_response(self) -> FaultResponse {
@@ -82,35 +67,6 @@ impl FaultKind {
             | Self::ControlLate => FaultResponse::Pause,
             Self::AngleLimit | Self::MachineFailed | Self::Panic | Self::Terminated => FaultResponse::Stop,
         }
-    }
-
-    /// The name of the kind in files and messages.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SensorStale => "sensor_stale",
-            Self::SensorLost => "sensor_lost",
-            Self::InvalidReading => "invalid_reading",
-            Self::Saturated => "saturated",
-            Self::AngleLimit => "angle_limit",
-            Self::BusBlocked => "bus_blocked",
-            Self::PoseOld => "pose_old",
-            Self::PoseJump => "pose_jump",
-            Self::PoseRestarted => "pose_restarted",
-            Self::ForeignSender => "foreign_sender",
-            Self::LinkLost => "link_lost",
-            Self::BrokerGone => "broker_gone",
-            Self::ControlLate => "control_late",
-            Self::MachineFailed => "machine_failed",
-            Self::Panic => "panic",
-            Self::Terminated => "terminated",
-        }
-    }
-
-    /// The number of the kind, from 0.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self as usize
     }
 }
 

@@ -27,7 +27,10 @@ pub mod drive;
 #[cfg(feature = "emulation")]
 pub mod emulation;
 pub mod fault;
+#[cfg(any(feature = "recording", feature = "store"))]
+mod hex;
 pub mod histogram;
+mod kinds;
 pub mod link;
 #[cfg(feature = "mqtt")]
 pub mod mqtt;
@@ -35,6 +38,7 @@ pub mod mqtt;
 pub mod program;
 #[cfg(feature = "recording")]
 pub mod recording;
+pub mod sensor;
 #[cfg(all(feature = "mqtt", feature = "recording"))]
 pub mod services;
 #[cfg(feature = "store")]

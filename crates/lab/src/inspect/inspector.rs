@@ -11,6 +11,7 @@ use vibrissa_language::explain::Variable;
 
 use super::breakpoint::{Breakpoint, BreakpointTick, BreakpointWatch, Breakpoints, Place};
 use super::records::{GuardRecord, LeafRecord, StopRecord, TransitionLine, VariableRecord, ViolationLine};
+use super::tried_guards::TriedGuards;
 
 /// Watches one run of an explained policy. It collects the transitions that are taken, and stops the run at a breakpoint.
 ///
@@ -19,10 +20,7 @@ use super::records::{GuardRecord, LeafRecord, StopRecord, TransitionLine, Variab
 pub struct Inspector<'b> {
     policy: &'b Breakpoints,
     scenario: String,
-    /// The guards of the current microstep, in the order in which they were tried.
-    tried: Vec<(TransitionId, Standing)>,
-    /// The registers after the evaluation of these guards.
-    registers: Vec<f64>,
+    guards: TriedGuards,
     /// The transitions of the current tick.
     taken: Vec<TransitionLine>,
     /// The innermost active state.
@@ -34,8 +32,6 @@ pub struct Inspector<'b> {
     /// The violations of contracts in the current tick, and in earlier ones.
     violated: Vec<ViolationLine>,
     violations: Vec<ViolationLine>,
-    /// The same, by their identifiers.
-    taken_ids: Vec<TransitionId>,
     watch: BreakpointWatch,
     stop: Option<StopRecord>,
     origin: Option<String>,
@@ -48,8 +44,7 @@ impl<'b> Inspector<'b> {
         Self {
             policy,
             scenario: scenario.to_owned(),
-            tried: Vec::new(),
-            registers: Vec::new(),
+            guards: TriedGuards::default(),
             taken: Vec::new(),
             innermost: Some(policy.explained.program.initial),
             entered: 0,
@@ -57,7 +52,6 @@ impl<'b> Inspector<'b> {
             transitions: Vec::new(),
             violated: Vec::new(),
             violations: Vec::new(),
-            taken_ids: Vec::new(),
             watch: BreakpointWatch::default(),
             stop: None,
             origin: None,
@@ -94,12 +88,17 @@ impl<'b> Inspector<'b> {
 
     fn record(&self, id: TransitionId, standing: Standing) -> Option<GuardRecord> {
         let transition = self.policy.explained.transition(id)?;
-        Some(GuardRecord::new(id.state.map(|state| self.state_name(state)), transition, standing, &self.registers))
+        Some(GuardRecord::new(
+            id.state.map(|state| self.state_name(state)),
+            transition,
+            standing,
+            &self.guards.registers,
+        ))
     }
 
     /// The records of the guards that were tried since the last transition, without those of breakpoints.
     fn records(&self, except: Option<TransitionId>) -> Vec<GuardRecord> {
-        let tried = self.tried.iter().filter(|(id, _)| Some(*id) != except && !self.is_breakpoint(*id));
+        let tried = self.guards.tried.iter().filter(|(id, _)| Some(*id) != except && !self.is_breakpoint(*id));
         tried.filter_map(|&(id, standing)| self.record(id, standing)).collect()
     }
 
@@ -110,8 +109,8 @@ impl<'b> Inspector<'b> {
 
     /// The first breakpoint that the tick at `time` (s) hit. `state` is the innermost active state.
     fn hit(&mut self, state: usize, time: f64) -> Option<&'b Breakpoint> {
-        let (has_entered, registers) = (self.entered == self.ticks, self.registers.as_slice());
-        let tick = BreakpointTick { time, state, has_entered, taken: &self.taken_ids, registers };
+        let (has_entered, registers) = (self.entered == self.ticks, self.guards.registers.as_slice());
+        let tick = BreakpointTick { time, state, has_entered, taken: &self.guards.taken, registers };
         self.watch.hit(self.policy, &tick)
     }
 
@@ -121,7 +120,7 @@ impl<'b> Inspector<'b> {
         let variables = |state: Option<usize>, variables: &[Variable]| {
             let name = state.map(|state| self.state_name(state));
             let value = |variable: &Variable| {
-                let value = variable.value(&explained.program, &self.registers)?.to_string();
+                let value = variable.value(&explained.program, &self.guards.registers)?.to_string();
                 Some(VariableRecord { state: name.clone(), name: variable.name.clone(), value })
             };
             variables.iter().filter_map(value).collect::<Vec<_>>()
@@ -144,16 +143,11 @@ impl<'b> Inspector<'b> {
 
 impl Observer for Inspector<'_> {
     fn guard(&mut self, tried: &TriedGuard<'_>) {
-        self.tried.push((tried.transition, tried.standing));
-        // All guards of a state are evaluated before the first of them is reported.
-        if tried.transition.index == 0 {
-            self.registers.clear();
-            self.registers.extend_from_slice(tried.registers);
-        }
+        self.guards.guard(tried);
     }
 
     fn taken(&mut self, transition: TransitionId) {
-        let standing = self.tried.iter().find(|(id, _)| *id == transition).map(|&(_, standing)| standing);
+        let standing = self.guards.tried.iter().find(|(id, _)| *id == transition).map(|&(_, standing)| standing);
         let taken = standing.and_then(|standing| self.record(transition, standing));
         if let Some(taken) = taken {
             let left = self.innermost.map_or_else(String::new, |state| self.state_name(state));
@@ -162,9 +156,8 @@ impl Observer for Inspector<'_> {
             let (scenario, tick) = (self.scenario.clone(), self.ticks);
             self.taken.push(TransitionLine { scenario, time_s: 0.0, tick, left, ticks_in_state, taken, others });
         }
-        self.taken_ids.push(transition);
         self.entered = self.ticks;
-        self.tried.clear();
+        self.guards.taken(transition);
         // The innermost state is known at the next guard of a state, or at the end of the tick.
         self.innermost = self.target(transition);
     }
@@ -224,8 +217,7 @@ impl Inspector<'_> {
 
     /// Begins the next tick.
     pub(super) fn begin_tick(&mut self) {
-        self.tried.clear();
-        self.taken_ids.clear();
+        self.guards.begin_tick();
     }
 }
 

@@ -6,6 +6,7 @@ mod explained_control;
 mod inspector;
 mod near_miss;
 mod records;
+mod tried_guards;
 
 pub use breakpoint::{Breakpoint, Breakpoints};
 pub use breakpoint::{BreakpointTick, BreakpointWatch};
@@ -14,3 +15,4 @@ pub use explained_control::ExplainedControl;
 pub use inspector::Inspector;
 pub use near_miss::{NearMiss, NearMisses};
 pub use records::{GuardRecord, LeafRecord, Margin, StopRecord, TransitionLine, VariableRecord, ViolationLine};
+pub use tried_guards::TriedGuards;

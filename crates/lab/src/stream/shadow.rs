@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use vibrissa_runtime::control::Control;
-use vibrissa_runtime::machine::{Observer, Standing, TransitionId, TriedGuard};
+use vibrissa_runtime::machine::{Standing, TransitionId};
 use vibrissa_runtime::signal::{Command, Sample};
 
 use super::guards::GuardNumbers;
 use super::message::GuardFrame;
-use crate::inspect::{BreakpointTick, BreakpointWatch, Breakpoints};
+use crate::inspect::{BreakpointTick, BreakpointWatch, Breakpoints, TriedGuards};
 
 /// A control loop with the same samples as that of the run. If the policy has a text, its program explains the guards.
 #[derive(Debug, Clone)]
@@ -16,48 +16,20 @@ pub struct Shadow {
     control: Control,
     policy: Option<Arc<Breakpoints>>,
     watch: BreakpointWatch,
-    observed: Observed,
+    observed: TriedGuards,
     ticks: usize,
-}
-
-/// What the machine has done in a tick.
-#[derive(Debug, Clone, Default)]
-struct Observed {
-    /// The guards that were tried after the last transition.
-    tried: Vec<(TransitionId, Standing)>,
-    /// The registers after the evaluation of these guards.
-    registers: Vec<f64>,
-    /// The transitions that were taken.
-    taken: Vec<TransitionId>,
-}
-
-impl Observer for Observed {
-    fn guard(&mut self, tried: &TriedGuard<'_>) {
-        self.tried.push((tried.transition, tried.standing));
-        // All guards of a state are evaluated before the first of them is reported.
-        if tried.transition.index == 0 {
-            self.registers.clear();
-            self.registers.extend_from_slice(tried.registers);
-        }
-    }
-
-    fn taken(&mut self, transition: TransitionId) {
-        self.taken.push(transition);
-        self.tried.clear();
-    }
 }
 
 impl Shadow {
     /// A loop at the start of a run. `control` has the program of the explained policy, if there is one.
     #[must_use]
     pub fn new(control: Control, policy: Option<Arc<Breakpoints>>) -> Self {
-        Self { control, policy, watch: BreakpointWatch::default(), observed: Observed::default(), ticks: 0 }
+        Self { control, policy, watch: BreakpointWatch::default(), observed: TriedGuards::default(), ticks: 0 }
     }
 
     /// Executes a tick. The result is the text of the breakpoint that it hits.
     pub fn tick(&mut self, samples: &[Sample]) -> (Command, Option<String>) {
-        self.observed.tried.clear();
-        self.observed.taken.clear();
+        self.observed.begin_tick();
         let (command, _) = self.control.tick_observed(samples, &mut self.observed);
         let tick = BreakpointTick {
             time: self.control.perception().time(),

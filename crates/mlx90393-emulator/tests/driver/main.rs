@@ -8,4 +8,3 @@ mod common;
 mod faults;
 mod fields;
 mod noise;
-mod replay;

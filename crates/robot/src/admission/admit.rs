@@ -1,6 +1,5 @@
 //! The decision about a machine.
 
-use vibrissa_mlx90393::{Axes, round_time};
 use vibrissa_runtime::machine::{Artifact, Program};
 
 use super::demands::{Demands, LongestRound};
@@ -9,6 +8,7 @@ use super::rates::Rates;
 use super::refusal::Refusal;
 use super::slower::Slower;
 use crate::config::Config;
+use crate::sensor::{Sensor, SensorModel};
 
 /// An admitted machine.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,9 +28,10 @@ pub struct Admission {
 /// [`Refusal`] with the first need that the device does not meet.
 pub fn admit(artifact: &Artifact, config: &Config, device: &mut Device<'_>) -> Result<Admission, Refusal> {
     check_whiskers(&artifact.program, config)?;
-    let round = longest_round(config, device)?;
+    let sensor = config.sensor()?;
+    let round = longest_round(config, &sensor, device)?;
     let needs = artifact.program.needs;
-    let conversion = f64::from(config.settings()?.conversion_time().nominal_us) * 1e-6;
+    let conversion = f64::from(sensor.conversion_us()) * 1e-6;
     let work = artifact.most_operations as f64 * device.operation;
     let demands = Demands {
         needs,
@@ -76,7 +77,7 @@ fn check_whiskers(program: &Program, config: &Config) -> Result<(), Refusal> {
 }
 
 /// The longest round of all buses, each of which must have the clock of the configuration.
-fn longest_round(config: &Config, device: &Device<'_>) -> Result<Option<LongestRound>, Refusal> {
+fn longest_round(config: &Config, sensor: &SensorModel, device: &Device<'_>) -> Result<Option<LongestRound>, Refusal> {
     let mut longest: Option<LongestRound> = None;
     for (bus, (entry, &clock)) in config.buses.iter().zip(&device.clocks).enumerate() {
         let clock_khz = clock.frequency_hz / 1000;
@@ -86,7 +87,7 @@ fn longest_round(config: &Config, device: &Device<'_>) -> Result<Option<LongestR
             return Err(Refusal::Clock { bus, clock_khz, least_khz });
         }
         let boards = u32::try_from(entry.boards.len()).unwrap_or(u32::MAX);
-        let time_us = round_time(boards, Axes::Y, clock);
+        let time_us = sensor.round_us(boards, clock);
         if longest.is_none_or(|longest| time_us > longest.time_us) {
             longest = Some(LongestRound { bus, time_us, clock_khz });
         }

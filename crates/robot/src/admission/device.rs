@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use vibrissa_mlx90393::BusClock;
+use crate::sensor::BusClock;
 
 /// The measured speed of a device.
 pub struct Device<'d> {

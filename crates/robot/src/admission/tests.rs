@@ -3,12 +3,12 @@
 
 use proptest::option;
 use proptest::prelude::*;
-use vibrissa_mlx90393::{Axes, BusClock, round_time};
 use vibrissa_runtime::machine::{Artifact, Needs, RateRange};
 use vibrissa_runtime::rig::Rig;
 
 use super::{Admission, Device, Refusal, admit};
 use crate::config::{Config, MAX_ROUNDS};
+use crate::sensor::{BusClock, Sensor};
 
 /// The policy `bang` with other needs.
 fn machine(needs: Needs) -> Artifact {
@@ -66,10 +66,12 @@ impl Speed {
             let (low, high) = range.map_or((configured, configured), |range| (range.low, range.high));
             rate > low * (1.0 - 1e-7) && rate < high.min(configured) * (1.0 + 1e-7)
         };
-        let conversion = f64::from(config.settings().unwrap().conversion_time().nominal_us) * 1e-6;
+        let conversion = f64::from(config.sensor().unwrap().conversion_us()) * 1e-6;
         let age = conversion + self.lateness + 1.0 / sample_rate;
         let tick = self.tick(rounds) + machine.most_operations as f64 * self.operation;
-        let round = |boards: usize| f64::from(round_time(u32::try_from(boards).unwrap(), Axes::Y, self.clock())) * 1e-6;
+        let round = |boards: usize| {
+            f64::from(config.sensor().unwrap().round_us(u32::try_from(boards).unwrap(), self.clock())) * 1e-6
+        };
         allows(needs.control_rate, sensing.control_rate, control_rate)
             && allows(needs.sample_rate, sensing.sample_rate, sample_rate)
             && needs.sample_age.is_none_or(|most| age < most * (1.0 + 1e-7))
@@ -84,7 +86,7 @@ impl Speed {
         let ends = |range: Option<RateRange>, configured: f64| {
             range.map_or(vec![configured], |range| vec![range.low, range.high, configured])
         };
-        let conversion = f64::from(config.settings().unwrap().conversion_time().nominal_us) * 1e-6;
+        let conversion = f64::from(config.sensor().unwrap().conversion_us()) * 1e-6;
         let mut rates = Vec::new();
         for rounds in 1..=MAX_ROUNDS {
             let tick = self.tick(rounds) + machine.most_operations as f64 * self.operation;
@@ -157,7 +159,7 @@ proptest! {
         let config = configured(30.0, 10);
         let machine = machine(Needs { sample_age: Some(age), ..Needs::default() });
         let timeouts = FAST.admit(&machine, &config).unwrap().config.timeouts;
-        let conversion = f64::from(config.settings().unwrap().conversion_time().nominal_us) * 1e-6;
+        let conversion = f64::from(config.sensor().unwrap().conversion_us()) * 1e-6;
         for (timeout, configured) in
             [(timeouts.sensor, config.timeouts.sensor), (timeouts.bus, config.timeouts.bus)]
         {

@@ -1,14 +1,9 @@
 //! Acquisition: the thread of one bus, which reads every board once per sample period.
 
-use std::cell::RefCell;
-
-use vibrissa_mlx90393::{
-    Address, CheckedSettings, InvalidAddress, Measurement, RawRead, ReadError, Sensor, StartError,
-};
-
-use super::bus::{Bus, Port};
+use super::bus::Bus;
 use super::round::{BoardReading, ReadingState, Round};
 use crate::config::{BoardConfig, MAX_BOARDS};
+use crate::sensor::{BoardDriver, Refused, Sensor, SensorDriver, SensorModel};
 
 /// Time (ns) until the bring-up of a lost board is tried again. A bring-up takes about 4 ms of the bus.
 const RETRY_NS: u64 = 100_000_000;
@@ -29,7 +24,8 @@ pub struct Acquisition {
 
 #[derive(Debug)]
 struct Board {
-    sensor: Sensor,
+    address: u8,
+    driver: BoardDriver,
     is_started: bool,
     failures: u32,
     stale: u32,
@@ -49,11 +45,11 @@ impl Acquisition {
     /// The acquisition of these boards on the bus with this index.
     ///
     /// # Errors
-    /// [`InvalidAddress`] if a board has an address that the sensor cannot have.
-    pub fn new(bus: u8, boards: &[BoardConfig], settings: CheckedSettings) -> Result<Self, InvalidAddress> {
+    /// [`Refused`] if a board has an address that the sensor cannot have.
+    pub fn new(bus: u8, boards: &[BoardConfig], sensor: &SensorModel) -> Result<Self, Refused> {
         let board = |address| {
-            let sensor = Sensor::new(Address::new(address)?, settings);
-            Ok(Board { sensor, is_started: false, failures: 0, stale: 0, retry_ns: 0 })
+            let driver = sensor.driver(address)?;
+            Ok(Board { address, driver, is_started: false, failures: 0, stale: 0, retry_ns: 0 })
         };
         let boards = boards.iter().take(MAX_BOARDS).map(|config| board(config.address));
         Ok(Self { bus, boards: boards.collect::<Result<_, _>>()? })
@@ -65,15 +61,14 @@ impl Acquisition {
     /// [`StartFault`] with the first board that fails.
     pub fn start<B: Bus>(&mut self, bus: &mut B) -> Result<(), StartFault> {
         for board in &mut self.boards {
-            let address = board.sensor.address().get();
-            board.start(bus).map_err(|error| StartFault { address, message: error.to_string() })?;
+            board.start(bus).map_err(|Refused(message)| StartFault { address: board.address, message })?;
         }
         Ok(())
     }
 
     /// Reads every board once. It waits for nothing, except that it brings up a lost board again.
     pub fn round<B: Bus>(&mut self, slot: u64, bus: &mut B) -> Round {
-        let silent = BoardReading { state: ReadingState::Silent, raw: RawRead::from_bytes(&[]) };
+        let silent = BoardReading::without_bytes(ReadingState::Silent);
         let started_ns = bus.now_ns();
         let mut readings = [silent; MAX_BOARDS];
         for (board, reading) in self.boards.iter_mut().zip(&mut readings) {
@@ -89,9 +84,8 @@ impl Acquisition {
 }
 
 impl Board {
-    fn start<B: Bus>(&mut self, bus: &mut B) -> Result<(), StartError<B::Error>> {
-        let shared = RefCell::new(bus);
-        self.sensor.start(&mut Port(&shared), &mut Port(&shared))?;
+    fn start<B: Bus>(&mut self, bus: &mut B) -> Result<(), Refused> {
+        self.driver.start(bus)?;
         (self.is_started, self.failures, self.stale) = (true, 0, 0);
         Ok(())
     }
@@ -103,12 +97,10 @@ impl Board {
                 self.retry_ns = bus.now_ns() + RETRY_NS;
             }
             // The first value after a bring-up comes with the next round.
-            return BoardReading { state: ReadingState::Lost, raw: RawRead::from_bytes(&[]) };
+            return BoardReading::without_bytes(ReadingState::Lost);
         }
-        let result = self.sensor.read(bus);
-        let raw = raw(&result);
-        let state = ReadingState::of(&result);
-        match state {
+        let reading = self.driver.read(bus);
+        match reading.state {
             ReadingState::Fresh(_) | ReadingState::Saturated => (self.failures, self.stale) = (0, 0),
             ReadingState::Stale => self.stale += 1,
             ReadingState::Garbled | ReadingState::Silent => self.failures += 1,
@@ -118,14 +110,6 @@ impl Board {
         if self.failures >= MOST_FAILURES || self.stale >= MOST_STALE {
             self.is_started = false;
         }
-        BoardReading { state, raw }
-    }
-}
-
-/// The bytes of a reading, as far as it has any.
-fn raw<E>(result: &Result<Measurement, ReadError<E>>) -> RawRead {
-    match result {
-        Ok(measurement) => measurement.raw,
-        Err(error) => error.raw().copied().unwrap_or(RawRead::from_bytes(&[])),
+        reading
     }
 }

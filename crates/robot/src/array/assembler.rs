@@ -1,13 +1,14 @@
 //! Assembly of the rounds of all buses to samples.
 
-use vibrissa_mlx90393::{Axis, CheckedSettings};
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
 use super::magnet::Magnet;
 use super::pose_history::PoseHistory;
 use super::round::Round;
 use super::transducer::Transducer;
+use super::zeroing::Zeroing;
 use crate::config::{Config, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS};
+use crate::sensor::{Sensor, SensorModel};
 
 /// Number of sample periods that are kept until all buses have delivered.
 const SLOTS: usize = 2 * MAX_ROUNDS as usize;
@@ -26,6 +27,7 @@ pub struct Assembler {
     /// Age of a value when it is read (ns): half of a conversion for its mean age, and half for its mean.
     delay_ns: u64,
     samples: Vec<Sample>,
+    zeroing: Zeroing,
     /// Readings that came after their sample.
     late: u64,
 }
@@ -39,12 +41,12 @@ struct Slot {
 }
 
 impl Assembler {
-    /// The assembler of an array whose sensors have these settings.
+    /// The assembler of an array with these sensors.
     #[must_use]
-    pub fn new(config: &Config, settings: &CheckedSettings) -> Self {
+    pub fn new(config: &Config, sensor: &SensorModel) -> Self {
         let none = Transducer {
             magnet: Magnet { field_per_moment: 1.0, cubic: 0.0 },
-            microtesla_per_count: f64::from(settings.field_per_count_microtesla(Axis::Y)),
+            microtesla_per_count: sensor.microtesla_per_count(),
             hinge_stiffness: 1.0,
             neutral: 0.0,
         };
@@ -56,7 +58,7 @@ impl Assembler {
             let rig = config.rig.whiskers.get(index);
             if let (Some(entry), Some(cell), Some(transducer), Some(rig)) = (entry, cell, transducer, rig) {
                 *cell = Some(index);
-                *transducer = Transducer::new(entry, rig, settings);
+                *transducer = Transducer::new(entry, rig, sensor);
             }
         }
         Self {
@@ -65,8 +67,9 @@ impl Assembler {
             slots: [Slot::default(); SLOTS],
             next_slot: 0,
             period_ns: period_ns(config.rig.sensing.sample_rate),
-            delay_ns: u64::from(settings.conversion_time().nominal_us) * 1000,
+            delay_ns: u64::from(sensor.conversion_us()) * 1000,
             samples: Vec::with_capacity(SLOTS),
+            zeroing: Zeroing::new(config.rig.whiskers.len(), sensor.largest_rest_spread()),
             late: 0,
         }
     }
@@ -76,6 +79,12 @@ impl Assembler {
         let boards = self.whisker.get(usize::from(round.bus)).into_iter().flatten();
         let readings = round.readings.iter().take(usize::from(round.count));
         boards.zip(readings).filter_map(|(whisker, reading)| whisker.map(|index| (index, reading.state.counts())))
+    }
+
+    /// The measurement of the neutral values, before its first value.
+    #[must_use]
+    pub fn zeroing(&self) -> Zeroing {
+        self.zeroing.clone()
     }
 
     /// Sets the neutral values (counts) of all whiskers.
@@ -183,16 +192,15 @@ mod tests {
 
     use super::*;
     use crate::array::{BoardReading, ReadingState};
-    use vibrissa_mlx90393::RawRead;
     use vibrissa_runtime::rig::Rig;
 
     fn assembler() -> Assembler {
         let config = Config::emulated(Rig::default(), 1.5);
-        Assembler::new(&config, &config.settings().unwrap())
+        Assembler::new(&config, &config.sensor().unwrap())
     }
 
     fn round(bus: u8, slot: u64, state: ReadingState) -> Round {
-        let reading = BoardReading { state, raw: RawRead::from_bytes(&[]) };
+        let reading = BoardReading::without_bytes(state);
         Round { bus, slot, started_ns: 0, ended_ns: 0, count: 1, readings: [reading; MAX_BOARDS] }
     }
 

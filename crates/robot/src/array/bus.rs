@@ -16,7 +16,7 @@ pub trait Bus: I2c {
 
 /// A bus that a driver uses for transfers and for delays at once.
 #[derive(Debug)]
-pub(super) struct Port<'b, B>(pub(super) &'b RefCell<&'b mut B>);
+pub(crate) struct Port<'b, B>(pub(crate) &'b RefCell<&'b mut B>);
 
 impl<B: Bus> ErrorType for Port<'_, B> {
     type Error = B::Error;

@@ -7,11 +7,13 @@ mod magnet;
 mod pose_history;
 mod round;
 mod transducer;
+mod zero;
 mod zeroing;
 
 pub use acquisition::{Acquisition, StartFault};
 pub use assembler::{Assembler, period_ns};
 pub use bus::Bus;
+pub(crate) use bus::Port;
 pub use magnet::Magnet;
 pub use pose_history::{PoseHistory, StampedPose, is_plausible_pose};
 pub use round::{BoardReading, ReadingState, Round};

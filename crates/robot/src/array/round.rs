@@ -1,9 +1,8 @@
 //! A round: one reading of every board on a bus.
 
-use vibrissa_mlx90393::{Axis, Measurement, RawRead, ReadError};
-
 use crate::config::MAX_BOARDS;
 use crate::fault::FaultKind;
+use crate::sensor::RawRead;
 
 /// The readings of all boards on a bus in one sample period.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +30,14 @@ pub struct BoardReading {
     pub raw: RawRead,
 }
 
+impl BoardReading {
+    /// A reading without bytes.
+    #[must_use]
+    pub fn without_bytes(state: ReadingState) -> Self {
+        Self { state, raw: RawRead::from_bytes(&[]) }
+    }
+}
+
 /// The result of reading a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReadingState {
@@ -49,23 +56,6 @@ pub enum ReadingState {
 }
 
 impl ReadingState {
-    /// The result of a read of the driver. It depends only on the received bytes, if there are any, except for a wrapped
-    /// field, which the driver notices by the readings before.
-    #[must_use]
-    pub fn of<E>(read: &Result<Measurement, ReadError<E>>) -> Self {
-        match read {
-            Ok(measurement) => match measurement.y {
-                Some(_) if measurement.is_saturated(Axis::Y) => Self::Saturated,
-                Some(counts) => Self::Fresh(counts),
-                None => Self::Garbled,
-            },
-            Err(ReadError::Stale { .. }) => Self::Stale,
-            Err(ReadError::Garbled { .. }) => Self::Garbled,
-            Err(ReadError::ModeLost { .. } | ReadError::Reset { .. }) => Self::Lost,
-            Err(ReadError::Bus(_)) => Self::Silent,
-        }
-    }
-
     /// The value in counts, if it is new and valid.
     #[must_use]
     pub fn counts(self) -> Option<i32> {

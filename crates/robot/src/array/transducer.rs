@@ -1,10 +1,10 @@
 //! Conversion of counts to base angles.
 
-use vibrissa_mlx90393::{Axis, CheckedSettings};
 use vibrissa_runtime::rig::Whisker;
 
 use super::magnet::Magnet;
 use crate::config::{BoardConfig, Config, ConfigError};
+use crate::sensor::{Sensor, SensorModel};
 
 /// Conversion of the counts of a sensor to the base angle of its whisker.
 ///
@@ -24,10 +24,10 @@ pub struct Transducer {
 impl Transducer {
     /// The conversion of a board at a whisker. The neutral value is 0.
     #[must_use]
-    pub fn new(board: &BoardConfig, whisker: &Whisker, settings: &CheckedSettings) -> Self {
+    pub fn new(board: &BoardConfig, whisker: &Whisker, sensor: &SensorModel) -> Self {
         Self {
             magnet: Magnet { field_per_moment: board.field_per_moment, cubic: board.cubic },
-            microtesla_per_count: f64::from(settings.field_per_count_microtesla(Axis::Y)),
+            microtesla_per_count: sensor.microtesla_per_count(),
             hinge_stiffness: whisker.perceived().hinge.stiffness,
             neutral: 0.0,
         }
@@ -38,11 +38,11 @@ impl Transducer {
     /// # Errors
     /// [`ConfigError`] if the sensors do not permit their settings, or if no board is assigned to the whisker.
     pub fn of<'c>(config: &'c Config, whisker: &Whisker) -> Result<(&'c BoardConfig, Self), ConfigError> {
-        let settings = config.settings()?;
+        let sensor = config.sensor()?;
         let board = config.buses.iter().flat_map(|bus| &bus.boards).find(|board| board.whisker == whisker.name);
         let none = || ConfigError::Inconsistent(format!("the whisker `{}` has no board; give it one", whisker.name));
         let board = board.ok_or_else(none)?;
-        Ok((board, Self::new(board, whisker, &settings)))
+        Ok((board, Self::new(board, whisker, &sensor)))
     }
 
     /// The base angle (rad) at a value (counts). NaN where the field of the magnet is not invertible.

@@ -1,7 +1,8 @@
 //! The neutral values of the whiskers, measured at the start.
 
-use vibrissa_mlx90393::{NotNeutral, Zero};
 use vibrissa_runtime::signal::MAX_WHISKERS;
+
+use super::zero::{Moving, Zero};
 
 /// Measures the neutral value of every whisker over the first rounds, in which nothing may touch them. The sensor's
 /// offset drifts by up to 1000 counts with temperature, so it is measured in every session.
@@ -12,9 +13,6 @@ pub struct Zeroing {
 
 /// Values of each whisker for its neutral value: one second.
 const VALUES: u32 = 300;
-/// Largest difference between two of these values (counts), 45 µT at the finest resolution. It is five times the range of
-/// the sensor's own noise.
-const LARGEST_SPREAD: u32 = 300;
 
 /// A whisker whose neutral value cannot be measured.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -22,14 +20,14 @@ const LARGEST_SPREAD: u32 = 300;
 pub struct ZeroingFault {
     /// Index of the whisker in the rig.
     pub whisker: usize,
-    cause: NotNeutral,
+    cause: Moving,
 }
 
 impl Zeroing {
-    /// Begins a measurement of this many whiskers.
+    /// Begins a measurement of this many whiskers. The values (counts) of one at rest differ by at most `largest_spread`.
     #[must_use]
-    pub fn new(count: usize) -> Self {
-        Self { whiskers: vec![Zero::new(VALUES, LARGEST_SPREAD); count.min(MAX_WHISKERS)] }
+    pub fn new(count: usize, largest_spread: u32) -> Self {
+        Self { whiskers: vec![Zero::new(VALUES, largest_spread); count.min(MAX_WHISKERS)] }
     }
 
     /// Adds a value (counts) of a whisker.
@@ -48,9 +46,9 @@ impl Zeroing {
         let mut is_complete = true;
         for (whisker, (zero, neutral)) in self.whiskers.iter().zip(&mut neutral).enumerate() {
             match zero.estimate() {
-                Ok(estimate) => *neutral = f64::from(estimate.mean_counts),
-                Err(NotNeutral::TooFew { .. }) => is_complete = false,
-                Err(cause @ NotNeutral::Moving { .. }) => return Err(ZeroingFault { whisker, cause }),
+                Ok(Some(mean_counts)) => *neutral = f64::from(mean_counts),
+                Ok(None) => is_complete = false,
+                Err(cause) => return Err(ZeroingFault { whisker, cause }),
             }
         }
         Ok(is_complete.then_some(neutral))
@@ -65,7 +63,7 @@ mod tests {
 
     #[test]
     fn the_neutral_value_is_the_mean_and_a_whisker_that_moves_is_refused() {
-        let mut zeroing = Zeroing::new(2);
+        let mut zeroing = Zeroing::new(2, 300);
         for index in 0..300 {
             zeroing.take(0, 1000 + (index % 2) * 10);
             assert_eq!(zeroing.finish(), Ok(None));

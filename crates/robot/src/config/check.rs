@@ -1,6 +1,5 @@
 //! Checks of several values of a configuration.
 
-use vibrissa_mlx90393::{Address, Axis};
 use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::signal::MAX_WHISKERS;
 use vibrissa_text::diagnostic::Source;
@@ -8,6 +7,7 @@ use vibrissa_yaml::{Node, Placed};
 
 use super::{ActuatorConfig, Config, ConfigError, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS, PoseSource, device};
 use crate::array::Transducer;
+use crate::sensor::{Section, Sensor};
 
 /// Values that contradict each other, or one that is not possible.
 #[derive(Debug)]
@@ -71,7 +71,7 @@ pub(super) fn check(config: &Config) -> Result<(), Inconsistency> {
     if needs_broker && config.mqtt.is_none() {
         return fault("actuator", "the actuator or the pose uses MQTT; add `mqtt: {host: ...}`");
     }
-    config.sensor.settings(sensing.sample_rate).map(|_| ()).or_else(|error| fault("sensor", error.to_string()))
+    config.sensor.model(sensing.sample_rate).map(|_| ()).or_else(|error| fault("sensor", error.to_string()))
 }
 
 /// Checks the assignment of boards to whiskers.
@@ -120,8 +120,9 @@ pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
                 format!("{device} and {other} are one bus; give each bus its own device, or list all boards under one"),
             );
         }
+        let Ok(sensor) = config.sensor() else { continue };
         for (number, board) in bus.boards.iter().enumerate() {
-            if let Err(error) = Address::new(board.address) {
+            if let Err(error) = sensor.driver(board.address) {
                 return fault(format!("buses.{index}.boards.{number}.address"), format!("`address`: {error}"));
             }
         }
@@ -142,12 +143,12 @@ const LEAST_COUNTS: f64 = 20.0;
 
 /// Checks that every sensor sees the whole range of base angles of its whisker.
 fn magnets(config: &Config) -> Result<(), Inconsistency> {
-    let Ok(settings) = config.settings() else { return Ok(()) };
-    let microtesla_per_count = f64::from(settings.field_per_count_microtesla(Axis::Y));
+    let Ok(sensor) = config.sensor() else { return Ok(()) };
+    let microtesla_per_count = sensor.microtesla_per_count();
     for (bus, number, whisker) in config.boards() {
         let Some(board) = config.buses.get(bus).and_then(|bus| bus.boards.get(number)) else { continue };
         let Some(whisker) = config.rig.whiskers.get(whisker) else { continue };
-        let Transducer { magnet, hinge_stiffness, .. } = Transducer::new(board, whisker, &settings);
+        let Transducer { magnet, hinge_stiffness, .. } = Transducer::new(board, whisker, &sensor);
         let moment = config.limits.base_angle * hinge_stiffness;
         let path = format!("buses.{bus}.boards.{number}");
         let name = &whisker.name;

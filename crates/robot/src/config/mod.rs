@@ -11,23 +11,22 @@ mod range;
 mod rig;
 mod safety;
 mod sender;
-mod sensor;
 #[cfg(test)]
 mod tests;
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
-use vibrissa_mlx90393::CheckedSettings;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 use vibrissa_yaml::{Files, Node, Placed};
+
+use crate::sensor::{Section, SensorConfig, SensorModel};
 
 pub use bus::{BoardConfig, BusConfig};
 pub use links::{ActuatorConfig, PoseConfig, PoseSource, RecordConfig};
 pub use mqtt::{MqttConfig, TlsConfig};
 pub use safety::{FaultResponse, Limits, Responses, Timeouts};
 pub use sender::{Sender, SenderError};
-pub use sensor::{SensorConfig, SensorConfigError};
 
 /// Reads a list, with a check of each item. It returns the key that is not possible, and the reason.
 #[cfg(feature = "emulation")]
@@ -58,7 +57,7 @@ fn parse(text: &str) -> Result<(Source, Placed<Node>), ConfigError> {
 }
 
 /// Reads a value from the tree of a text.
-fn read<T: DeserializeOwned>(source: &Source, tree: &Placed<Node>) -> Result<T, ConfigError> {
+pub(crate) fn read<T: DeserializeOwned>(source: &Source, tree: &Placed<Node>) -> Result<T, ConfigError> {
     vibrissa_yaml::read_value(tree).map_err(|fault| ConfigError::at(source, fault.span(), fault.to_string()))
 }
 
@@ -147,8 +146,9 @@ struct File {
     /// It has its own reader.
     #[serde(default, rename = "rig")]
     _rig: IgnoredAny,
-    #[serde(default)]
-    sensor: SensorConfig,
+    /// It has its own reader.
+    #[serde(default, rename = "sensor")]
+    _sensor: IgnoredAny,
     buses: Vec<BusConfig>,
     limits: Limits,
     #[serde(default)]
@@ -178,11 +178,12 @@ impl Config {
     pub fn from_text_with(text: &str, files: &mut Files<'_>) -> Result<Self, ConfigError> {
         let (source, tree) = parse(text)?;
         let file: File = read(&source, &tree)?;
+        let sensor = tree.entry("sensor").map(|entry| SensorConfig::read(&source, &entry.value)).transpose()?;
         let rig = rig::read(&source, &tree, files).map_err(|faults| ConfigError::first(&source, &faults))?;
         let mut config = Self {
             name: file.name,
             rig,
-            sensor: file.sensor,
+            sensor: sensor.unwrap_or_default(),
             buses: file.buses,
             limits: file.limits,
             timeouts: file.timeouts,
@@ -220,13 +221,13 @@ impl Config {
         })
     }
 
-    /// The settings of the sensors.
+    /// The sensor with its settings.
     ///
     /// # Errors
     /// [`ConfigError::Inconsistent`] if the sensor does not permit them. A configuration from text has valid ones.
-    pub fn settings(&self) -> Result<CheckedSettings, ConfigError> {
-        let settings = self.sensor.settings(self.rig.sensing.sample_rate);
-        settings.map_err(|error| ConfigError::Inconsistent(error.to_string()))
+    pub fn sensor(&self) -> Result<SensorModel, ConfigError> {
+        let model = self.sensor.model(self.rig.sensing.sample_rate);
+        model.map_err(|error| ConfigError::Inconsistent(error.to_string()))
     }
 
     /// Number of acquisition rounds in a control period.
@@ -255,9 +256,9 @@ impl Config {
     pub fn emulated(mut rig: Rig, noise_microtesla: f64) -> Self {
         let stiffness = rig.whiskers.first().map_or(1.0, |whisker| whisker.hinge.stiffness);
         rig.sensing.angle_noise = noise_microtesla * 1e-6 / (bus::array_magnet() * stiffness);
+        let first_address = SensorConfig::default().first_address();
         let board = |(index, whisker): (usize, &vibrissa_runtime::rig::Whisker)| {
-            // An order code of the sensor has four addresses.
-            let address = u8::try_from(0x0C + index / 2).unwrap_or(0x0C);
+            let address = u8::try_from(index / 2).map_or(first_address, |place| first_address.saturating_add(place));
             BoardConfig::array(whisker.name.clone(), address)
         };
         let boards: Vec<BoardConfig> = rig.whiskers.iter().enumerate().map(board).collect();

@@ -3,7 +3,8 @@
 use vibrissa_runtime::units::{Dimension, Key, format_si};
 
 use super::check::Inconsistency;
-use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, SensorConfig, Timeouts};
+use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, Timeouts};
+use crate::sensor::Section;
 
 const SPEED: Key = Key::new("speed", Dimension::SPEED, (1e-3, 100.0), "0.1 m/s");
 const YAW_RATE: Key = Key::new("yaw_rate", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "60 deg/s");
@@ -67,7 +68,7 @@ fn numbers(config: &Config) -> Vec<Number> {
     add(&mut numbers, "timeouts", [(settle, SETTLE)]);
     let PoseConfig { latency, noise, heading_noise, .. } = config.pose;
     add(&mut numbers, "pose", [(latency, LATENCY), (noise, POSE_NOISE), (heading_noise, HEADING_NOISE)]);
-    sensor_codes(&mut numbers, config.sensor);
+    add(&mut numbers, config.sensor.path(), config.sensor.numbers());
     for (index, BusConfig { clock, boards, .. }) in config.buses.iter().enumerate() {
         add(&mut numbers, &format!("buses.{index}"), [(*clock, CLOCK)]);
         for (board, entry) in boards.iter().enumerate() {
@@ -83,22 +84,7 @@ fn numbers(config: &Config) -> Vec<Number> {
     numbers
 }
 
-fn sensor_codes(numbers: &mut Vec<Number>, sensor: SensorConfig) {
-    let code = |name, greatest, example| Key::new(name, Dimension::NUMBER, (0.0, greatest), example);
-    let SensorConfig { oversampling, filter, gain, resolution } = sensor;
-    add(
-        numbers,
-        "sensor",
-        [
-            (oversampling.into(), code("oversampling", 3.0, "2")),
-            (filter.into(), code("filter", 7.0, "3")),
-            (gain.into(), code("gain", 7.0, "7")),
-            (resolution.into(), code("resolution", 3.0, "0")),
-        ],
-    );
-}
-
 /// Adds the numbers of a section.
-fn add<const N: usize>(numbers: &mut Vec<Number>, section: &str, of: [(f64, Key); N]) {
-    numbers.extend(of.map(|(value, key)| (format!("{section}.{}", key.name), value, key)));
+fn add(numbers: &mut Vec<Number>, section: &str, of: impl IntoIterator<Item = (f64, Key)>) {
+    numbers.extend(of.into_iter().map(|(value, key)| (format!("{section}.{}", key.name), value, key)));
 }

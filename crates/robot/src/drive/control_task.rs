@@ -81,12 +81,12 @@ impl ControlTask {
         control.keep_for(config.timeouts.sensor + STOPPING);
         Self {
             control,
+            zeroing: Some(assembler.zeroing()),
             assembler,
             poses: PoseHistory::new(pose_reach_ns(config)),
             inputs,
             outputs,
             vitals,
-            zeroing: Some(Zeroing::new(config.rig.whiskers.len())),
             sample_period_ns: period_ns(config.rig.sensing.sample_rate),
             base_angle_limit: config.limits.base_angle,
             paused_ns: 0,

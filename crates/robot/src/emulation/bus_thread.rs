@@ -5,20 +5,19 @@ use std::rc::Rc;
 
 use embedded_hal::i2c::{ErrorType, I2c, Operation};
 use rtrb::Producer;
-use vibrissa_mlx90393::CheckedSettings;
-use vibrissa_mlx90393_emulator::{
-    BusFault, EmulatedBus, EmulatedBusError, EmulatedSensor, FieldSource, SensorFault, SensorOptions,
-};
+use vibrissa_mlx90393_emulator::{BusFault, Emulated, EmulatedBus, EmulatedBusError, FieldSource, SensorFault};
 
 use super::plant::Plant;
 use super::scheduler::{EmulationError, Settings};
 use super::timeline::Timeline;
 use crate::array::{Acquisition, Bus, Magnet, Round};
 use crate::config::Config;
+use crate::sensor::{EmulatedBoard, Sensor, SensorModel};
 use crate::vitals::{Phase, Vitals};
 
 /// An acquisition thread.
 pub(super) struct BusThread<P> {
+    sensor: SensorModel,
     bus: TimedBus<P>,
     acquisition: Acquisition,
     rounds: Producer<Round>,
@@ -34,7 +33,7 @@ impl<P: Plant> BusThread<P> {
     pub(super) fn start(
         config: &Config,
         index: u8,
-        checked: CheckedSettings,
+        sensor: SensorModel,
         timeline: &Rc<RefCell<Timeline<P>>>,
         settings: &Settings,
         rounds: Producer<Round>,
@@ -42,8 +41,9 @@ impl<P: Plant> BusThread<P> {
         let bus = usize::from(index);
         let boards = config.buses.get(bus).map(|bus| bus.boards.as_slice()).unwrap_or_default();
         let mut thread = Self {
-            bus: TimedBus(emulated_bus(config, bus, timeline, settings)),
-            acquisition: Acquisition::new(index, boards, checked)?,
+            sensor,
+            bus: TimedBus(emulated_bus(config, &sensor, bus, timeline, settings)),
+            acquisition: Acquisition::new(index, boards, &sensor)?,
             rounds,
             whiskers: config.whiskers_on(bus),
             addresses: boards.iter().map(|board| board.address).collect(),
@@ -82,6 +82,11 @@ impl<P: Plant> BusThread<P> {
         if begins { self.bus.0.inject(fault) } else { self.bus.0.clear() }
     }
 
+    /// Begins or ends impossible answers of the sensor of a whisker, if it is on this bus.
+    pub(super) fn switch_garbled(&mut self, whisker: u8, begins: bool) {
+        self.switch_sensor_fault(whisker, begins, self.sensor.garbled());
+    }
+
     /// Begins or ends a fault of the sensor of a whisker, if it is on this bus.
     pub(super) fn switch_sensor_fault(&mut self, whisker: u8, begins: bool, fault: SensorFault) {
         let board = self.whiskers.iter().position(|&index| index == usize::from(whisker));
@@ -94,7 +99,10 @@ impl<P: Plant> BusThread<P> {
 }
 
 /// An emulated bus with its own time.
-struct TimedBus<P>(EmulatedBus<ArrayField<P>>);
+struct TimedBus<P>(ArrayBus<P>);
+
+/// A bus with boards of any sensor.
+type ArrayBus<P> = EmulatedBus<ArrayField<P>, dyn Emulated>;
 
 impl<P> ErrorType for TimedBus<P> {
     type Error = EmulatedBusError;
@@ -134,10 +142,11 @@ impl<P: Plant> FieldSource for ArrayField<P> {
 /// A bus with the boards of the configuration.
 fn emulated_bus<P: Plant>(
     config: &Config,
+    sensor: &SensorModel,
     bus: usize,
     timeline: &Rc<RefCell<Timeline<P>>>,
     settings: &Settings,
-) -> EmulatedBus<ArrayField<P>> {
+) -> ArrayBus<P> {
     let boards: Vec<_> = config.boards().filter(|board| board.0 == bus).collect();
     let magnets = boards.iter().filter_map(|&(bus, board, whisker)| {
         let board = config.buses.get(bus)?.boards.get(board)?;
@@ -147,16 +156,13 @@ fn emulated_bus<P: Plant>(
     let mut emulated = EmulatedBus::new(ArrayField { timeline: Rc::clone(timeline), magnets });
     for (field_index, &(bus, board, whisker)) in boards.iter().enumerate() {
         let Some(board) = config.buses.get(bus).and_then(|bus| bus.boards.get(board)) else { continue };
-        // Oscillators differ by up to 10 %, and offsets by hundreds of counts.
-        let spread = f64::from(u32::try_from((settings.seed * 7 + whisker as u64 * 3) % 9).unwrap_or(0)) / 4.0 - 1.0;
-        emulated.add(EmulatedSensor::new(SensorOptions {
+        let deviation = f64::from(u32::try_from((settings.seed * 7 + whisker as u64 * 3) % 9).unwrap_or(0)) / 4.0 - 1.0;
+        emulated.add(sensor.emulated(&EmulatedBoard {
             address: board.address,
             field_index,
-            clock_ratio: 1.0 + 0.1 * spread,
-            noise_microtesla: [settings.noise_microtesla; 3],
-            offset_microtesla: [0.0, 60.0 * spread, 0.0],
+            deviation,
+            noise_microtesla: settings.noise_microtesla,
             seed: settings.seed.wrapping_mul(31).wrapping_add(whisker as u64),
-            ..SensorOptions::default()
         }));
     }
     emulated

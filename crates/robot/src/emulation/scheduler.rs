@@ -7,7 +7,6 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use rtrb::{Consumer, Producer, RingBuffer};
-use vibrissa_mlx90393::InvalidAddress;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Tick;
 use vibrissa_runtime::signal::Command;
@@ -28,6 +27,7 @@ use crate::drive::{
 };
 use crate::fault::FaultEvent;
 use crate::link::{CommandPacket, StampedCommand};
+use crate::sensor::Refused;
 use crate::vitals::{Phase, Vitals};
 
 /// Base angle of a whisker that is bent too far, as a ratio to the limit.
@@ -91,7 +91,7 @@ struct ControlThread {
 pub enum EmulationError {
     /// A board has an address that the sensor cannot have.
     #[error(transparent)]
-    Address(#[from] InvalidAddress),
+    Address(#[from] Refused),
     /// The sensor does not permit its settings.
     #[error(transparent)]
     Config(#[from] ConfigError),
@@ -122,21 +122,21 @@ impl<P: Plant> Emulation<P> {
     pub fn new(config: &Config, control: Control, plant: P, settings: &Settings) -> Result<Self, EmulationError> {
         let sensing = &config.rig.sensing;
         let sample_period_ns = period_ns(sensing.sample_rate);
-        let checked = config.settings()?;
+        let sensor = config.sensor()?;
         let timeline = Rc::new(RefCell::new(Timeline::new(plant, sample_period_ns)));
         let vitals = Arc::new(Vitals::default());
         let (mut buses, mut consumers) = (Vec::new(), Vec::new());
         for (index, _) in (0_u8..).zip(&config.buses) {
             let (rounds, consumer) = RingBuffer::new(QUEUE);
             consumers.push(consumer);
-            buses.push(BusThread::start(config, index, checked, &timeline, settings, rounds)?);
+            buses.push(BusThread::start(config, index, sensor, &timeline, settings, rounds)?);
         }
         let (pose_producer, pose_consumer) = RingBuffer::new(QUEUE);
         let (command_producer, commands) = RingBuffer::new(QUEUE);
         let ([control_records, supervision_records], records) = record_queues();
         let inputs = Inputs { rounds: consumers, poses: pose_consumer };
         let outputs = Outputs { commands: command_producer, records: control_records };
-        let assembler = Assembler::new(config, &checked);
+        let assembler = Assembler::new(config, &sensor);
         let stiffness = config.rig.whiskers.first().map_or(1.0, |whisker| whisker.hinge.stiffness);
         let mut injections: Vec<_> = settings.injections.iter().copied().map(PendingInjection::new).collect();
         injections.sort_by_key(|pending| pending.injection.at_ms);

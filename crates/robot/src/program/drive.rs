@@ -7,7 +7,6 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
-use vibrissa_mlx90393::{Address, measure_bus_clock};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
 
@@ -25,6 +24,7 @@ use super::watch::{termination, watch};
 use crate::admission::{Admission, Device, admit};
 use crate::config::{CONFIG_LIMIT, Config};
 use crate::drive::RecordSink;
+use crate::sensor::{BusClock, Sensor};
 use crate::store::{DEFAULT_KEYS, DEFAULT_STORE, Keys, Store};
 use crate::telemetry::Source;
 
@@ -168,12 +168,12 @@ fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
 }
 
 /// Measures the clock of every bus at its first board.
-fn bus_clocks(config: &Config, clock: SystemClock) -> Result<Vec<vibrissa_mlx90393::BusClock>, Error> {
+fn bus_clocks(config: &Config, clock: SystemClock) -> Result<Vec<BusClock>, Error> {
+    let sensor = config.sensor()?;
     let measure = |bus: &crate::config::BusConfig| {
         let mut opened = SystemBus::open(&bus.device, clock)?;
         let board = bus.boards.first().ok_or("a bus has no board")?;
-        let address = Address::new(board.address)?;
-        let measured = measure_bus_clock(&mut opened, address, || clock.now_ns());
+        let measured = sensor.bus_clock(&mut opened, board.address, || clock.now_ns());
         measured.map_err(|error| Error::from(format!("{}: {error}", bus.device.display())))
     };
     config.buses.iter().map(measure).collect()

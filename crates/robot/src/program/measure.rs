@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use vibrissa_mlx90393::BusClock;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::{Point2, Pose};
 use vibrissa_runtime::machine::{Op, compute};
@@ -12,6 +11,7 @@ use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 use super::real_time::{CONTROL_PRIORITY, raise_priority};
 use super::system_clock::SystemClock;
 use crate::admission::Device;
+use crate::sensor::BusClock;
 
 /// Repetitions of every measurement: two seconds of the loop.
 const REPETITIONS: u32 = 60;

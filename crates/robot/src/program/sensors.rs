@@ -11,6 +11,7 @@ use super::system_bus::SystemBus;
 use super::system_clock::SystemClock;
 use crate::array::{Acquisition, Bus, ReadingState, period_ns};
 use crate::config::Config;
+use crate::sensor::Sensor;
 
 const EXAMPLE: &str = "Example:\n  vibrissa-robot sensors --config /etc/vibrissa/array.yaml";
 
@@ -46,12 +47,12 @@ struct WhiskerLine {
 pub(super) fn sensors(arguments: &SensorsArguments) -> Result<ExitCode, Error> {
     let (config, _) = read_config(&arguments.config)?;
     let clock = SystemClock::start();
-    let settings = config.settings()?;
-    let microtesla = f64::from(settings.field_per_count_microtesla(vibrissa_mlx90393::Axis::Y));
+    let sensor = config.sensor()?;
+    let microtesla = sensor.microtesla_per_count();
     let mut buses = Vec::new();
     for (index, bus) in (0_u8..).zip(&config.buses) {
         let mut opened = SystemBus::open(&bus.device, clock)?;
-        let mut acquisition = Acquisition::new(index, &bus.boards, settings)?;
+        let mut acquisition = Acquisition::new(index, &bus.boards, &sensor)?;
         if let Err(error) = acquisition.start(&mut opened) {
             super::command_line::print_error(&format!("warning: {}: {error}", bus.device.display()));
         }

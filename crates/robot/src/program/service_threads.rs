@@ -66,7 +66,7 @@ impl Controller {
     /// Starts all threads. The machine begins once every whisker has its neutral value.
     pub(super) fn start(self) -> Result<Threads, ThreadError> {
         let Self { config, broker, control, sinks, clock } = self;
-        let checked = config.settings()?;
+        let sensor = config.sensor()?;
         let (common, errors) = Common::new(&config, clock);
         let (rounds, round_receivers) = config.buses.iter().map(|_| RingBuffer::new(QUEUE)).unzip();
         let (poses, pose_receiver) = RingBuffer::new(QUEUE);
@@ -76,7 +76,7 @@ impl Controller {
         let task = ControlTask::new(
             &config,
             control,
-            Assembler::new(&config, &checked),
+            Assembler::new(&config, &sensor),
             Inputs { rounds: round_receivers, poses: pose_receiver },
             Outputs { commands: command_sender, records: control_records },
             Arc::clone(&common.vitals),

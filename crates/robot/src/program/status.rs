@@ -38,8 +38,6 @@ struct Status {
     tentative: Option<TentativeStatus>,
     /// The last machine that was given up.
     rejected: Option<RejectedStatus>,
-    /// Older machines, the latest first.
-    previous: Vec<MachineStatus>,
 }
 
 #[derive(Debug, Serialize)]
@@ -95,7 +93,6 @@ impl Status {
             rejected: state
                 .rejected
                 .map(|rejected| RejectedStatus { hash: rejected.hash.to_string(), reason: rejected.reason }),
-            previous: state.previous.into_iter().map(machine).collect(),
         })
     }
 }
@@ -137,7 +134,7 @@ impl fmt::Display for Status {
         if let Some(RejectedStatus { hash, reason }) = &self.rejected {
             write!(f, "\ngiven up:  {hash}\n           {reason}")?;
         }
-        self.previous.iter().try_for_each(|machine| write!(f, "\nprevious:  {machine}"))
+        Ok(())
     }
 }
 

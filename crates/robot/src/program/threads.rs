@@ -14,6 +14,7 @@ use crate::array::{Acquisition, Assembler, Bus, Round, StartFault, ZeroingFault,
 use crate::config::{Config, ConfigError};
 use crate::drive::{ControlTask, Inputs, Outputs, QUEUE, RecordSink, Supervisor, record_queues};
 use crate::link::{Actuator, PoseGate, ReceivedPose};
+use crate::sensor::Refused;
 use crate::services::InputsError;
 use crate::vitals::Vitals;
 
@@ -70,7 +71,7 @@ pub enum ThreadError {
     Zeroing(#[from] ZeroingFault),
     /// A board has an invalid address.
     #[error(transparent)]
-    Address(#[from] vibrissa_mlx90393::InvalidAddress),
+    Address(#[from] Refused),
     /// The sensor does not permit its settings.
     #[error(transparent)]
     Config(#[from] ConfigError),
@@ -144,12 +145,12 @@ impl Common {
         config: &Config,
         buses: Vec<OpenBus<B>>,
     ) -> Result<Acquisitions, ThreadError> {
-        let checked = config.settings()?;
+        let sensor = config.sensor()?;
         let (mut handles, mut inputs) = (Vec::new(), Vec::new());
         for (index, (open, bus)) in (0_u8..).zip(buses.into_iter().zip(&config.buses)) {
             let (rounds, consumer) = RingBuffer::new(QUEUE);
             inputs.push(consumer);
-            let acquisition = Acquisition::new(index, &bus.boards, checked)?;
+            let acquisition = Acquisition::new(index, &bus.boards, &sensor)?;
             let whiskers = config.whiskers_on(usize::from(index));
             let body = move |common: &Self| acquire(common, open(), acquisition, &whiskers, rounds);
             handles.push(self.spawn(&format!("bus {index}"), body)?);
@@ -175,7 +176,7 @@ impl<B: Bus + 'static> Robot<B> {
     /// # Errors
     /// [`ThreadError`] if a thread cannot be started. Errors inside of threads come through [`Threads::errors`].
     pub fn start(self) -> Result<Threads, ThreadError> {
-        let checked = self.config.settings()?;
+        let sensor = self.config.sensor()?;
         let (common, errors) = Common::new(&self.config, self.clock);
         let (mut handles, rounds) = common.acquisitions(&self.config, self.buses)?;
         let (pose_sender, poses) = RingBuffer::new(QUEUE);
@@ -184,7 +185,7 @@ impl<B: Bus + 'static> Robot<B> {
         let task = ControlTask::new(
             &self.config,
             self.control,
-            Assembler::new(&self.config, &checked),
+            Assembler::new(&self.config, &sensor),
             Inputs { rounds, poses },
             Outputs { commands: command_sender, records: control_records },
             Arc::clone(&common.vitals),

@@ -19,7 +19,6 @@ mod difference;
 mod directory;
 mod encoder;
 mod error;
-mod hex;
 mod keep;
 mod number;
 mod part;

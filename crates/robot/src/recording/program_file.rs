@@ -6,7 +6,7 @@ use std::io::Read;
 
 use sha2::{Digest, Sha256};
 
-use super::hex;
+use crate::hex;
 
 /// SHA-256 of the running program's file in hexadecimal digits. `None` if it cannot be read.
 #[must_use]

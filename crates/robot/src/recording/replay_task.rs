@@ -4,7 +4,6 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use rtrb::{Consumer, Producer, RingBuffer};
-use vibrissa_mlx90393::CheckedSettings;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Program;
 
@@ -16,6 +15,7 @@ use super::tick_message::TickMessage;
 use crate::array::{Assembler, Round, StampedPose, period_ns};
 use crate::drive::{ControlTask, Inputs, LoopRecord, Outputs, QUEUE, Records, TickReport, record_queues};
 use crate::link::StampedCommand;
+use crate::sensor::SensorModel;
 use crate::vitals::Vitals;
 
 /// Entries of the queues of a replay. A step takes at most what the queues of the loop hold, and what arrives meanwhile.
@@ -29,7 +29,7 @@ pub(super) struct ReplayTask {
     commands: Consumer<StampedCommand>,
     records: Records,
     vitals: Arc<Vitals>,
-    settings: CheckedSettings,
+    sensor: SensorModel,
     program: Arc<Program>,
     sample_period_ns: u64,
 }
@@ -48,7 +48,7 @@ impl ReplayTask {
     /// The task at the start of a run.
     pub(super) fn new(setup: &Setup) -> Result<Self, ReadError> {
         let config = setup.config();
-        let settings = config.settings()?;
+        let sensor = config.sensor()?;
         let control = Control::new(&config.rig, Arc::clone(setup.program()))?;
         let vitals = Arc::new(Vitals::default());
         let (mut rounds, mut taken) = (Vec::new(), Vec::new());
@@ -62,10 +62,10 @@ impl ReplayTask {
         let ([sender, _], records) = record_queues();
         let inputs = Inputs { rounds: taken, poses: taken_poses };
         let outputs = Outputs { commands: sent, records: sender };
-        let assembler = Assembler::new(config, &settings);
+        let assembler = Assembler::new(config, &sensor);
         let task = ControlTask::new(config, control, assembler, inputs, outputs, Arc::clone(&vitals));
         let (program, sample_period_ns) = (Arc::clone(setup.program()), period_ns(config.rig.sensing.sample_rate));
-        Ok(Self { task, rounds, poses, commands, records, vitals, settings, program, sample_period_ns })
+        Ok(Self { task, rounds, poses, commands, records, vitals, sensor, program, sample_period_ns })
     }
 
     /// Repeats a step with its recorded inputs. The result is a difference if the driver decodes an input differently.
@@ -98,7 +98,7 @@ impl ReplayTask {
     }
 
     fn take_round(&mut self, index: usize, message: &RoundMessage) -> Result<(), FieldDifference> {
-        let round = message.decoded(&self.settings).map_err(|found| FieldDifference {
+        let round = message.decoded(&self.sensor).map_err(|found| FieldDifference {
             field: format!("rounds[{index}].boards[{}]", found.board),
             recorded: format!("{:?}", found.recorded),
             replayed: found.decoded.map_or_else(|| "no reading".to_owned(), |state| format!("{state:?}")),

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{Artifact, ArtifactError, Program};
 
-use super::hex;
 use crate::config::{Config, ConfigError};
 
 /// Name and media type of the attachment with the artifact.
@@ -134,5 +133,5 @@ impl Setup {
 /// SHA-256 in hexadecimal digits.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
-    hex::encode(&Sha256::digest(bytes))
+    crate::hex::encode(&Sha256::digest(bytes))
 }

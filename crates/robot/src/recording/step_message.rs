@@ -1,13 +1,13 @@
 //! The message of a step: everything that the control task has taken.
 
 use serde::{Deserialize, Serialize};
-use vibrissa_mlx90393::{CheckedSettings, RawRead, decode};
 use vibrissa_runtime::geometry::{Point2, Pose};
 
 use super::number::Number;
 use crate::array::{BoardReading, ReadingState, Round, StampedPose};
 use crate::config::MAX_BOARDS;
 use crate::drive::{StepInput, StepTime};
+use crate::sensor::{RawRead, Sensor, SensorModel};
 
 /// The inputs of a step of the control task.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -147,13 +147,13 @@ impl RoundMessage {
     ///
     /// # Errors
     /// [`DecodingDifference`] with the first board whose result differs from the recorded one.
-    pub(crate) fn decoded(&self, settings: &CheckedSettings) -> Result<Round, DecodingDifference> {
-        let silent = BoardReading { state: ReadingState::Silent, raw: RawRead::from_bytes(&[]) };
+    pub(crate) fn decoded(&self, sensor: &SensorModel) -> Result<Round, DecodingDifference> {
+        let silent = BoardReading::without_bytes(ReadingState::Silent);
         let mut readings = [silent; MAX_BOARDS];
         let mut count = 0;
         for (board, (reading, message)) in readings.iter_mut().zip(&self.boards).enumerate() {
             let recorded = message.recorded();
-            let decoded = message.decoded(settings);
+            let decoded = message.decoded(sensor);
             match decoded {
                 Some(decoded) if decoded.state == recorded => *reading = decoded,
                 // The driver has noticed a wrap by the readings before. The bytes alone do not tell.
@@ -187,7 +187,7 @@ impl From<&BoardReading> for BoardMessage {
             ReadingState::Silent => BoardState::Silent,
             ReadingState::Lost => BoardState::Lost,
         };
-        let raw = super::hex::encode(reading.raw.as_bytes());
+        let raw = crate::hex::encode(reading.raw.as_bytes());
         Self { state, counts: reading.state.counts().unwrap_or(0), raw }
     }
 }
@@ -206,11 +206,11 @@ impl BoardMessage {
 
     /// The reading by the driver's decoding. `None` if the bytes are no hexadecimal digits, or absent where the bus has
     /// answered.
-    fn decoded(&self, settings: &CheckedSettings) -> Option<BoardReading> {
-        let bytes = super::hex::decode(&self.raw)?;
+    fn decoded(&self, sensor: &SensorModel) -> Option<BoardReading> {
+        let bytes = crate::hex::decode(&self.raw)?;
         let raw = RawRead::from_bytes(&bytes);
         let state = match (bytes.is_empty(), self.recorded()) {
-            (false, _) => ReadingState::of(&decode(settings, &bytes)),
+            (false, _) => sensor.decode(&bytes),
             // The bus has reported an error, or the board was not read.
             (true, recorded @ (ReadingState::Silent | ReadingState::Lost)) => recorded,
             (true, _) => return None,

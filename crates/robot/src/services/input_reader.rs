@@ -4,19 +4,19 @@ use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
 
 use rtrb::Producer;
-use vibrissa_mlx90393::CheckedSettings;
 
 use super::inputs::{Inputs, Session};
 use crate::array::{Round, StampedPose, period_ns};
 use crate::config::{Config, ConfigError};
 use crate::drive::StepTime;
 use crate::link::{Order, Place, SenderClock};
+use crate::sensor::SensorModel;
 use crate::vitals::Vitals;
 
 /// Reads inputs and passes them to the control task. It repeats the decoding of the driver.
 #[derive(Debug)]
 pub struct InputReader {
-    settings: CheckedSettings,
+    sensor: SensorModel,
     /// The whiskers of each bus.
     whiskers: Vec<Vec<usize>>,
     sample_period_ns: u64,
@@ -84,7 +84,7 @@ impl InputReader {
     ) -> Result<Self, ConfigError> {
         let sensing = &config.rig.sensing;
         Ok(Self {
-            settings: config.settings()?,
+            sensor: config.sensor()?,
             whiskers: (0..config.buses.len()).map(|bus| config.whiskers_on(bus)).collect(),
             sample_period_ns: period_ns(sensing.sample_rate),
             rates: [sensing.sample_rate, sensing.control_rate],
@@ -113,7 +113,7 @@ impl InputReader {
         let sent_ns = now_ns.saturating_sub(self.clock.age_ns(inputs.sent_ns, now_ns));
         let arrival = |time_ns: u64| sent_ns.saturating_sub(inputs.sent_ns.saturating_sub(time_ns));
         for message in &inputs.rounds {
-            let mut round = message.decoded(&self.settings).map_err(|_| InputsError::Array)?;
+            let mut round = message.decoded(&self.sensor).map_err(|_| InputsError::Array)?;
             let (Some(queue), Some(whiskers)) = (self.rounds.get_mut(message.bus()), self.whiskers.get(message.bus()))
             else {
                 return Err(InputsError::Array);

@@ -66,42 +66,50 @@ pub enum FrameError {
     Read(#[source] io::Error),
 }
 
-/// Writes a frame and flushes the stream.
-pub(super) fn write(machine: &SignedMachine, mut to: impl Write) -> io::Result<()> {
-    let length = |part: &[u8]| u32::try_from(part.len()).map_err(|_| ErrorKind::InvalidInput);
-    let (artifact, signature) = (machine.artifact(), machine.signature().as_bytes());
-    to.write_all(&MAGIC)?;
-    for number in [FORMAT, length(artifact)?, length(signature)?] {
-        to.write_all(&number.to_le_bytes())?;
+impl SignedMachine {
+    /// Writes a frame to a stream and flushes it.
+    ///
+    /// # Errors
+    /// The stream cannot be written.
+    pub fn write_frame(&self, mut to: impl Write) -> io::Result<()> {
+        let length = |part: &[u8]| u32::try_from(part.len()).map_err(|_| ErrorKind::InvalidInput);
+        let (artifact, signature) = (self.artifact(), self.signature().as_bytes());
+        to.write_all(&MAGIC)?;
+        for number in [FORMAT, length(artifact)?, length(signature)?] {
+            to.write_all(&number.to_le_bytes())?;
+        }
+        to.write_all(artifact)?;
+        to.write_all(signature)?;
+        to.flush()
     }
-    to.write_all(artifact)?;
-    to.write_all(signature)?;
-    to.flush()
-}
 
-/// Reads a frame up to the end of the stream. It allocates no more than the limits.
-pub(super) fn read(mut from: impl Read) -> Result<SignedMachine, FrameError> {
-    if bytes(&mut from, MAGIC.len())? != MAGIC {
-        return Err(FrameError::NotAFrame);
-    }
-    let format = number(&mut from)?;
-    if format != FORMAT {
-        return Err(FrameError::Format { found: format });
-    }
-    let artifact = number(&mut from)? as usize;
-    let signature = number(&mut from)? as usize;
-    if artifact > ARTIFACT_LIMIT {
-        return Err(FrameError::ArtifactTooLarge { found: artifact as u64 });
-    }
-    if signature > SIGNATURE_LIMIT {
-        return Err(FrameError::SignatureTooLarge { found: signature as u64 });
-    }
-    let artifact = bytes(&mut from, artifact)?;
-    let signature = String::from_utf8(bytes(&mut from, signature)?).map_err(|_| FrameError::NotText)?;
-    match bytes(&mut from, 1) {
-        Err(FrameError::Truncated) => Ok(SignedMachine::new(artifact, signature)),
-        Ok(_) => Err(FrameError::Trailing),
-        Err(cause) => Err(cause),
+    /// Reads a frame up to the end of the stream. It allocates no more than the limits.
+    ///
+    /// # Errors
+    /// The stream is not exactly one frame.
+    pub fn read_frame(mut from: impl Read) -> Result<Self, FrameError> {
+        if bytes(&mut from, MAGIC.len())? != MAGIC {
+            return Err(FrameError::NotAFrame);
+        }
+        let format = number(&mut from)?;
+        if format != FORMAT {
+            return Err(FrameError::Format { found: format });
+        }
+        let artifact = number(&mut from)? as usize;
+        let signature = number(&mut from)? as usize;
+        if artifact > ARTIFACT_LIMIT {
+            return Err(FrameError::ArtifactTooLarge { found: artifact as u64 });
+        }
+        if signature > SIGNATURE_LIMIT {
+            return Err(FrameError::SignatureTooLarge { found: signature as u64 });
+        }
+        let artifact = bytes(&mut from, artifact)?;
+        let signature = String::from_utf8(bytes(&mut from, signature)?).map_err(|_| FrameError::NotText)?;
+        match bytes(&mut from, 1) {
+            Err(FrameError::Truncated) => Ok(Self::new(artifact, signature)),
+            Ok(_) => Err(FrameError::Trailing),
+            Err(cause) => Err(cause),
+        }
     }
 }
 

@@ -6,6 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::hex;
+
 /// Number of bytes of a SHA-256.
 const LENGTH: usize = 32;
 
@@ -29,7 +31,7 @@ impl MachineHash {
 
 impl fmt::Display for MachineHash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+        f.write_str(&hex::encode(&self.0))
     }
 }
 
@@ -43,23 +45,9 @@ impl FromStr for MachineHash {
     type Err = ParseHashError;
 
     fn from_str(text: &str) -> Result<Self, ParseHashError> {
-        let (pairs, rest) = text.as_bytes().as_chunks::<2>();
-        if pairs.len() != LENGTH || !rest.is_empty() {
-            return Err(ParseHashError);
-        }
-        let mut hash = [0; LENGTH];
-        for (byte, [high, low]) in hash.iter_mut().zip(pairs) {
-            *byte = digit(*high)? << 4 | digit(*low)?;
-        }
-        Ok(Self(hash))
-    }
-}
-
-fn digit(character: u8) -> Result<u8, ParseHashError> {
-    match character {
-        b'0'..=b'9' => Ok(character - b'0'),
-        b'a'..=b'f' => Ok(character - b'a' + 10),
-        _ => Err(ParseHashError),
+        let is_lower_case = !text.bytes().any(|digit| digit.is_ascii_uppercase());
+        let bytes = hex::decode(text).filter(|_| is_lower_case).and_then(|bytes| bytes.try_into().ok());
+        bytes.map(Self).ok_or(ParseHashError)
     }
 }
 

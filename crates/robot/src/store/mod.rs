@@ -62,7 +62,7 @@ pub use keys::{DEFAULT_KEYS, Keys, KeysError};
 pub use machine_hash::{MachineHash, ParseHashError};
 pub use push::{PushCommand, PushError, push};
 pub use signed_machine::{SignedMachine, SignedMachineError};
-pub use state::{KEPT, Rejection, Role, State, Tentative};
+pub use state::{Rejection, Role, State, Tentative};
 pub use state_file::StateFileError;
 pub use store::{DEFAULT_STORE, Store, StoredMachine};
 pub use store_error::{ReceiveError, StoreError};

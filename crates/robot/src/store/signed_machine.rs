@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use vibrissa_runtime::machine::ARTIFACT_LIMIT;
 
 use super::file;
-use super::frame::{self, FrameError, SIGNATURE_LIMIT};
+use super::frame::SIGNATURE_LIMIT;
 use super::machine_hash::MachineHash;
 
 /// Ending of the files that minisign writes. It follows the whole name of the signed file.
@@ -87,22 +87,6 @@ impl SignedMachine {
                 Err(SignedMachineError::Signature { path: path.to_owned(), signature: signature.to_owned(), cause })
             }
         }
-    }
-
-    /// Reads a frame from a stream, up to the end of the stream.
-    ///
-    /// # Errors
-    /// The stream is not exactly one frame.
-    pub fn read_frame(from: impl io::Read) -> Result<Self, FrameError> {
-        frame::read(from)
-    }
-
-    /// Writes a frame to a stream.
-    ///
-    /// # Errors
-    /// The stream cannot be written.
-    pub fn write_frame(&self, to: impl io::Write) -> io::Result<()> {
-        frame::write(self, to)
     }
 
     /// The bytes of the artifact.

@@ -2,18 +2,17 @@
 
 use std::fmt;
 
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::machine_hash::MachineHash;
 use super::text::one_line;
 
-/// Number of machines that are kept beside the good and the tentative one.
-pub const KEPT: usize = 4;
 /// Maximum length of a reason in characters.
 const REASON_LIMIT: usize = 500;
 
 /// The machines of a store.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     /// The last machine that was marked good.
@@ -22,8 +21,9 @@ pub struct State {
     pub tentative: Option<Tentative>,
     /// The last machine that was given up.
     pub rejected: Option<Rejection>,
-    /// Up to [`KEPT`] older machines, the latest first.
-    pub previous: Vec<MachineHash>,
+    /// Older machines, which a state of an older version names. They are not kept.
+    #[serde(default, rename = "previous", skip_serializing)]
+    _previous: IgnoredAny,
     /// The largest counter of a machine that was marked good. A machine with a smaller one, or with none, is refused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counter: Option<u64>,
@@ -69,34 +69,20 @@ impl State {
 
     /// All machines that are kept.
     pub(super) fn kept(&self) -> impl Iterator<Item = MachineHash> {
-        let current = self.good.into_iter().chain(self.tentative.map(|tentative| tentative.hash));
-        current.chain(self.previous.iter().copied())
+        self.good.into_iter().chain(self.tentative.map(|tentative| tentative.hash))
     }
 
-    /// True if no machine has two roles and there are not too many.
+    /// True if no machine has two roles.
     pub(super) fn is_consistent(&self) -> bool {
-        let mut all: Vec<_> = self.kept().collect();
-        let count = all.len();
-        all.sort_unstable();
-        all.dedup();
-        all.len() == count && self.previous.len() <= KEPT
+        self.tentative.is_none_or(|tentative| self.good != Some(tentative.hash))
     }
 
     /// Makes a new machine tentative, with no start. If it is the good one, the tentative one is withdrawn instead.
     pub(super) fn receive(&mut self, hash: MachineHash) -> Role {
-        let withdrawn = self.tentative.take().map(|tentative| tentative.hash);
-        self.previous.retain(|previous| *previous != hash);
-        if let Some(withdrawn) = withdrawn.filter(|withdrawn| *withdrawn != hash) {
-            self.retire(withdrawn);
-        }
-        if self.rejected.as_ref().is_some_and(|rejected| rejected.hash == hash) {
-            self.rejected = None;
-        }
-        if self.good == Some(hash) {
-            return Role::Good;
-        }
-        self.tentative = Some(Tentative { hash, starts: 0 });
-        Role::Tentative
+        self.rejected.take_if(|rejected| rejected.hash == hash);
+        let is_good = self.good == Some(hash);
+        self.tentative = (!is_good).then_some(Tentative { hash, starts: 0 });
+        if is_good { Role::Good } else { Role::Tentative }
     }
 
     /// Takes back a start of the tentative machine. Returns false if `hash` is not the tentative one.
@@ -119,9 +105,7 @@ impl State {
             return false;
         }
         self.tentative = None;
-        if let Some(old) = self.good.replace(hash) {
-            self.retire(old);
-        }
+        self.good = Some(hash);
         true
     }
 
@@ -131,14 +115,8 @@ impl State {
             return false;
         }
         self.tentative = None;
-        self.retire(hash);
         self.rejected = Some(Rejection { hash, reason: one_line(reason, REASON_LIMIT) });
         true
-    }
-
-    fn retire(&mut self, hash: MachineHash) {
-        self.previous.insert(0, hash);
-        self.previous.truncate(KEPT);
     }
 }
 

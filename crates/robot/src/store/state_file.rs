@@ -37,8 +37,8 @@ pub enum StateFileError {
         /// Number of that format.
         found: u32,
     },
-    /// It names a machine twice, or too many machines.
-    #[error("it is damaged: it names a machine twice, or too many machines")]
+    /// It names a machine twice.
+    #[error("it is damaged: it names a machine twice")]
     Inconsistent,
 }
 

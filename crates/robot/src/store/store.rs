@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Read};
-use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
@@ -25,15 +24,12 @@ pub const DEFAULT_STORE: &str = "/var/lib/vibrissa";
 /// Endings of the files in the folder `machines`.
 const MACHINE_ENDING: &str = ".machine";
 const SIGNATURE_ENDING: &str = ".machine.minisig";
-/// The starts that a tentative machine has by default.
-const START_LIMIT: NonZeroU32 = NonZeroU32::MIN;
 
 /// A directory with signed machines. Several programs may use it at once.
 #[derive(Debug)]
 pub struct Store {
     path: PathBuf,
     disk: Box<dyn Disk>,
-    start_limit: NonZeroU32,
     /// Name of the robot, if it is known.
     robot: Option<String>,
     /// The keys with which a machine is verified again when it is loaded.
@@ -65,7 +61,7 @@ impl Store {
 
     /// A store on another disk. The path is used in messages only.
     pub(super) fn on(path: &Path, disk: Box<dyn Disk>) -> Self {
-        Self { path: path.to_owned(), disk, start_limit: START_LIMIT, robot: None, keys: None }
+        Self { path: path.to_owned(), disk, robot: None, keys: None }
     }
 
     /// Sets the name of the robot. A machine that was signed for another one is refused when it is received and when it is loaded.
@@ -78,12 +74,6 @@ impl Store {
     #[must_use]
     pub fn trusting(self, keys: Keys) -> Self {
         Self { keys: Some(keys), ..self }
-    }
-
-    /// Sets the number of starts after which a tentative machine is given up, if it was not marked good. The default is 1.
-    #[must_use]
-    pub fn with_start_limit(self, start_limit: NonZeroU32) -> Self {
-        Self { start_limit, ..self }
     }
 
     /// The roles of the machines, and the reason for which the last one was given up.
@@ -145,7 +135,7 @@ impl Store {
     /// The machine for the run that begins now. A start of the tentative machine is counted and durable before this
     /// function returns.
     ///
-    /// A tentative machine that has had its starts, or that cannot be loaded, is given up. Then the good machine is returned.
+    /// A tentative machine that was started before, or that cannot be loaded, is given up. Then the good machine is returned.
     ///
     /// # Errors
     /// The state cannot be read or written, there is no machine, or it cannot be used.
@@ -155,8 +145,8 @@ impl Store {
         let before = state.clone();
         if let Some(tentative) = &mut state.tentative {
             let hash = tentative.hash;
-            let reason = if tentative.starts >= self.start_limit.get() {
-                format!("it was started ({} of {}) and not marked good", tentative.starts, self.start_limit)
+            let reason = if tentative.starts > 0 {
+                "it was started and not marked good".to_owned()
             } else {
                 match self.load_again(hash, Role::Tentative, &before) {
                     Ok(machine) => {

@@ -55,13 +55,14 @@ impl Translator {
     pub(super) fn new(config: &Config, program: Option<&Program>) -> Self {
         let rig_whiskers: Vec<_> = config.rig.whiskers.iter().map(|whisker| whisker.name.clone()).collect();
         let fitted = |name: &String| rig_whiskers.contains(name).then(|| name.clone());
+        // The loop does not start with other settings.
+        let assembler = config.sensor().ok().map(|sensor| Assembler::new(config, &sensor));
         Self {
             policy_whiskers: program.iter().flat_map(|program| &program.whiskers).map(fitted).collect(),
             buses: config.buses.iter().map(|bus| bus.device.display().to_string()).collect(),
             states: program.iter().flat_map(|program| &program.states).map(|state| state.name.to_string()).collect(),
-            // The loop does not start with other settings.
-            assembler: config.settings().ok().map(|settings| Assembler::new(config, &settings)),
-            zeroing: Some(Zeroing::new(rig_whiskers.len())),
+            zeroing: assembler.as_ref().map(Assembler::zeroing),
+            assembler,
             is_zeroed: false,
             rig_whiskers,
             samples: Vec::new(),

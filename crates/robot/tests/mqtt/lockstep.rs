@@ -75,7 +75,7 @@ fn a_controller_behind_the_broker_gives_the_commands_of_the_whole_loop_bit_for_b
     let (steps, due) = sync_channel(4);
     let (commands, mut sent) = RingBuffer::new(QUEUE);
     let ([records, _], _) = record_queues();
-    let assembler = Assembler::new(&config, &config.settings().unwrap());
+    let assembler = Assembler::new(&config, &config.sensor().unwrap());
     let inputs = Inputs { rounds: round_receivers, poses: pose_receiver };
     let outputs = Outputs { commands, records };
     let mut remote = ControlTask::new(&config, control(), assembler, inputs, outputs, Arc::clone(&vitals));

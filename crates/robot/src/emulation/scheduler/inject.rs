@@ -8,9 +8,6 @@ use super::Emulation;
 use crate::emulation::injection::{Injection, InjectionKind};
 use crate::emulation::plant::Plant;
 
-/// Bits of a status byte that give a sensor in burst mode two other modes, which is impossible.
-const TWO_MODES: u8 = 0x60;
-
 /// Number of faults of each kind that are present now.
 #[derive(Debug, Default)]
 pub(in super::super) struct Present([usize; InjectionKind::ALL.len()]);
@@ -61,7 +58,9 @@ impl<P: Plant> Emulation<P> {
                 self.sensor_fault(part, begins, SensorFault::NoAcknowledge { transactions: None });
             }
             InjectionKind::GarbledBytes => {
-                self.sensor_fault(part, begins, SensorFault::BitFlip { byte: 0, mask: TWO_MODES, answers: u32::MAX });
+                for thread in &mut self.buses {
+                    thread.switch_garbled(part, begins);
+                }
             }
             InjectionKind::SaturatedField => {
                 self.sensor_fault(part, begins, SensorFault::Saturated { negative: false });

@@ -21,13 +21,12 @@ const CHANGES: [Change; 5] = [
     |store, _| store.reject(hash(2), "no contact for 10 s"),
 ];
 
-/// An empty disk. One with a good machine, a tentative one and as many others as are kept. The same, with a start of the
+/// An empty disk. One with a good machine and a tentative one that replaces another. The same, with a start of the
 /// tentative one.
 fn disks() -> [SimulatedDisk; 3] {
     let full = SimulatedDisk::default();
-    for number in [4, 5, 6, 7, 8, 1] {
-        make_good(&full.store(), number);
-    }
+    make_good(&full.store(), 1);
+    receive(&full.store(), 4);
     receive(&full.store(), 2);
     full.lose_power(0);
     let started = full.copy();

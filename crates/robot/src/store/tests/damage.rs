@@ -145,24 +145,42 @@ fn a_store_that_is_not_there_is_an_error_that_says_what_to_do() {
     assert!(error.to_string().contains("create this directory"), "{error}");
 }
 
-/// Without the lock, starts would be lost, because each reads the state before it writes it.
+/// Without the lock, several starts would get it, because each reads the state before it writes it.
 #[test]
-fn programs_that_change_a_store_at_once_lose_no_change() {
+fn of_programs_that_start_at_once_only_one_gets_the_tentative_machine() {
     const THREADS: usize = 4;
-    const STARTS: u32 = 20;
     let (folder, store) = store();
-    receive(&store, 1);
-    let barrier = Barrier::new(THREADS);
-    thread::scope(|scope| {
-        for _ in 0..THREADS {
-            scope.spawn(|| {
-                let store = Store::open(folder.path()).unwrap().with_start_limit(1000.try_into().unwrap());
-                barrier.wait();
-                (0..STARTS).for_each(|_| drop(store.begin_run().unwrap()));
-            });
-        }
-    });
-    assert_eq!(store.status().unwrap().tentative.unwrap().starts, STARTS * u32::try_from(THREADS).unwrap());
+    make_good(&store, 1);
+    for _ in 0..20 {
+        receive(&store, 2);
+        let barrier = Barrier::new(THREADS);
+        let start = || {
+            let store = Store::open(folder.path()).unwrap();
+            barrier.wait();
+            store.begin_run().unwrap().role
+        };
+        let roles = thread::scope(|scope| {
+            let started: Vec<_> = (0..THREADS).map(|_| scope.spawn(start)).collect();
+            started.into_iter().map(|thread| thread.join().unwrap()).collect::<Vec<_>>()
+        });
+        assert_eq!(roles.iter().filter(|role| **role == Role::Tentative).count(), 1);
+    }
+}
+
+/// A state of a version that kept older machines.
+#[test]
+fn the_older_machines_of_a_state_are_removed() {
+    let (folder, store) = store();
+    make_good(&store, 1);
+    let file = state_file(folder.path());
+    let text = fs::read_to_string(&file).unwrap();
+    let older = text.replacen("\"good\"", &format!("\"previous\": [\"{}\"], \"good\"", hash(3)), 1);
+    assert_ne!(older, text);
+    fs::write(&file, older).unwrap();
+    fs::write(machine_file(folder.path(), 3), "x").unwrap();
+    assert_eq!(store.current().unwrap().hash, hash(1));
+    receive(&store, 2);
+    assert!(!machine_file(folder.path(), 3).exists() && !fs::read_to_string(&file).unwrap().contains("previous"));
 }
 
 #[test]
