@@ -13,7 +13,7 @@ use vibrissa_runtime::units::suggest;
 use vibrissa_text::diagnostic::Span;
 
 use crate::node::{Entry, Node, Placed};
-use crate::reader::written;
+use crate::reader::{number_text, written};
 
 /// Reads a value of any type from a tree.
 ///
@@ -145,7 +145,7 @@ fn words(found: Unexpected<'_>) -> String {
         Unexpected::Bool(flag) => format!("`{flag}`"),
         Unexpected::Unsigned(number) => format!("`{number}`"),
         Unexpected::Signed(number) => format!("`{number}`"),
-        Unexpected::Float(number) => format!("`{number}`"),
+        Unexpected::Float(number) => format!("`{}`", number_text(number)),
         Unexpected::Str(text) => format!("`{text}`"),
         Unexpected::Seq => "a list".to_owned(),
         Unexpected::Map => "keys with values".to_owned(),
@@ -171,7 +171,7 @@ impl Reader<'_> {
             Node::Text(text) => visitor.visit_str(text),
             // A quantity without a unit is refused with better words by its own reader.
             Node::Integer(integer) => visitor.visit_str(&integer.to_string()),
-            Node::Float(float) => visitor.visit_str(&float.to_string()),
+            Node::Float(float) => visitor.visit_str(&number_text(*float)),
             _ => return self.any(visitor),
         };
         read.map_err(|fault: Fault| fault.at(self.0.span))

@@ -1,9 +1,10 @@
 //! The ranges of all numbers of a configuration but for those of the rig, whose reader checks them.
 
 use vibrissa_runtime::units::{Dimension, Key, format_si};
+use vibrissa_yaml::{Node, Placed, number_text, written};
 
 use super::check::Inconsistency;
-use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, SensorConfig, Timeouts};
+use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, Timeouts};
 
 const SPEED: Key = Key::new("speed", Dimension::SPEED, (1e-3, 100.0), "0.1 m/s");
 const YAW_RATE: Key = Key::new("yaw_rate", Dimension::ANGULAR_SPEED, (1e-3, 100.0), "60 deg/s");
@@ -26,16 +27,19 @@ const PORT: Key = Key::new("port", Dimension::NUMBER, (1.0, 65_535.0), "1883");
 /// A number of a configuration: its path in the text, its value (SI) and its key.
 type Number = (String, f64, Key);
 
-/// Returns an error for the first number beyond the range of its key.
-pub(super) fn check(config: &Config) -> Result<(), Inconsistency> {
+/// Returns an error for the first number beyond the range of its key, with the number as `tree` has it.
+pub(super) fn check(config: &Config, tree: &Placed<Node>) -> Result<(), Inconsistency> {
     let outside = numbers(config).into_iter().find(|(_, value, key)| !key.contains(*value));
     if let Some((path, value, key)) = outside {
         let Key { name, dimension, example, .. } = key;
-        let (written, range) = (format_si(value, dimension), key.range_text());
-        return Err(Inconsistency {
-            path,
-            message: format!("`{name}` cannot be {written}; it must be {range}, for example `{name}: {example}`"),
-        });
+        let found = match &tree.find(&path).value {
+            // Only a default is not in the text.
+            Node::Null | Node::List(_) | Node::Mapping(_) => format_si(value, dimension),
+            scalar => written(scalar),
+        };
+        let range = key.range_text();
+        let message = format!("`{name}` cannot be {found}; it must be {range}, for example `{name}: {example}`");
+        return Err(Inconsistency { path, message });
     }
     config.buses.iter().enumerate().try_for_each(|(bus, entry)| {
         entry.boards.iter().enumerate().try_for_each(|(board, entry)| field_per_moment(bus, board, entry))
@@ -49,8 +53,9 @@ fn field_per_moment(bus: usize, board: usize, entry: &BoardConfig) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "`field_per_moment` cannot be {found}; it must be from {least} to {greatest} T/(N m), or as much below 0 if the board \
+        "`field_per_moment` cannot be {}; it must be from {least} to {greatest} T/(N m), or as much below 0 if the board \
          is turned around. The baseline's array has {}",
+        number_text(found),
         FIELD_PER_MOMENT.example
     );
     Err(Inconsistency { path: format!("buses.{bus}.boards.{board}.field_per_moment"), message })
@@ -67,7 +72,6 @@ fn numbers(config: &Config) -> Vec<Number> {
     add(&mut numbers, "timeouts", [(settle, SETTLE)]);
     let PoseConfig { latency, noise, heading_noise, .. } = config.pose;
     add(&mut numbers, "pose", [(latency, LATENCY), (noise, POSE_NOISE), (heading_noise, HEADING_NOISE)]);
-    sensor_codes(&mut numbers, config.sensor);
     for (index, BusConfig { clock, boards, .. }) in config.buses.iter().enumerate() {
         add(&mut numbers, &format!("buses.{index}"), [(*clock, CLOCK)]);
         for (board, entry) in boards.iter().enumerate() {
@@ -81,21 +85,6 @@ fn numbers(config: &Config) -> Vec<Number> {
         add(&mut numbers, "record", [(record.limit_mb as f64, LIMIT_MB)]);
     }
     numbers
-}
-
-fn sensor_codes(numbers: &mut Vec<Number>, sensor: SensorConfig) {
-    let code = |name, greatest, example| Key::new(name, Dimension::NUMBER, (0.0, greatest), example);
-    let SensorConfig { oversampling, filter, gain, resolution } = sensor;
-    add(
-        numbers,
-        "sensor",
-        [
-            (oversampling.into(), code("oversampling", 3.0, "2")),
-            (filter.into(), code("filter", 7.0, "3")),
-            (gain.into(), code("gain", 7.0, "7")),
-            (resolution.into(), code("resolution", 3.0, "0")),
-        ],
-    );
 }
 
 /// Adds the numbers of a section.

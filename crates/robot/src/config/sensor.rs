@@ -5,17 +5,23 @@ use vibrissa_mlx90393::{
     CheckedSettings, DigitalFilter, Gain, OutOfRange, Oversampling, Refusal, Resolution, Resolutions, Settings,
 };
 
+use super::whole_number;
+
 /// The settings of the sensors. They are those of the baseline's array by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SensorConfig {
     /// Oversampling ratio, OSR (0 to 3).
+    #[serde(deserialize_with = "whole_number::up_to::<3, _>")]
     pub oversampling: u8,
     /// Digital filter, `DIG_FILT` (0 to 7).
+    #[serde(deserialize_with = "whole_number::up_to::<7, _>")]
     pub filter: u8,
     /// Gain, `GAIN_SEL` (0 to 7). 7 is the most sensitive.
+    #[serde(deserialize_with = "whole_number::up_to::<7, _>")]
     pub gain: u8,
     /// Resolution of the Y axis, `RES_Y` (0 to 3). 0 is the finest.
+    #[serde(deserialize_with = "whole_number::up_to::<3, _>")]
     pub resolution: u8,
 }
 
