@@ -239,11 +239,15 @@ pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
 
 /// Names the whiskers that seem dead or insensitive.
 pub(super) fn report_dead_whiskers(scene: &str, result: &RunResult) {
+    // Friction turns the force on a tip, so that the same bend has another base angle.
+    let friction = result.untold_friction.map_or_else(String::new, |friction| {
+        format!("; a likely cause is the friction of {friction}, which perception does not assume: state it in `rig.sensing.friction`")
+    });
     for WhiskerResponse { whisker, bent_s, response, .. } in result.dead_whiskers() {
         let percent = 100.0 * response.unwrap_or(0.0);
         output::message(format_args!(
             "{scene}: warning: {whisker} seems dead or insensitive: it was bent for {bent_s:.1} s, and its perceived bend \
-             changed by {percent:.0} % of the true one"
+             changed by {percent:.0} % of the true one{friction}"
         ));
     }
 }

@@ -93,6 +93,9 @@ pub struct RunResult {
     pub whiskers: Vec<WhiskerResponse>,
     #[serde(flatten)]
     pub(super) latency: Section<10>,
+    /// Coefficient of friction of the objects, if perception assumes much less.
+    #[serde(skip)]
+    pub untold_friction: Option<f64>,
     /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
@@ -121,6 +124,8 @@ pub struct Identity {
     /// The calibration of the array that control assumed. `None` for an array that is the assumed one, and that no
     /// calibration changes.
     pub calibration: Option<CalibrationIdentity>,
+    /// Coefficient of friction of the objects, if perception assumes much less.
+    pub untold_friction: Option<f64>,
     /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
@@ -224,7 +229,8 @@ impl RunResult {
     /// The result of `run` with this `score` and these `violations` of the scenario.
     #[must_use]
     pub fn new(identity: Identity, run: &Run, score: &Score, violations: &[Violation]) -> Self {
-        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
+        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, untold_friction, hash } =
+            identity;
         let wall_s = run.wall.as_secs_f64();
         Self {
             scenario,
@@ -258,6 +264,7 @@ impl RunResult {
             inclination: score.inclination.as_ref().map(|figures| Inclination::new(score, figures, &run.trace)),
             whiskers: score.responses.iter().filter_map(|one| WhiskerResponse::new(one, &run.trace)).collect(),
             latency: Section::of(score),
+            untold_friction,
             hash,
         }
     }

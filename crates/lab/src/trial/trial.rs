@@ -224,6 +224,13 @@ impl Trial {
         CalibrationIdentity::of(&self.scene, |text| short_hash(&Sha256::digest(text)))
     }
 
+    /// The coefficient of friction of the objects, if perception assumes less than half of it for a whisker.
+    fn untold_friction(&self) -> Option<f64> {
+        let friction = self.scene.physics.friction;
+        let Rig { whiskers, sensing, .. } = &self.assumed_rig;
+        whiskers.iter().any(|whisker| whisker.friction(sensing) < 0.5 * friction).then_some(friction)
+    }
+
     /// The names and hashes that identify the trial.
     pub fn identity(&self) -> Identity {
         Identity {
@@ -234,6 +241,7 @@ impl Trial {
             seed: self.seed,
             mismatch: self.scene.mismatch.as_ref().map(MismatchIdentity::from),
             calibration: self.calibration(),
+            untold_friction: self.untold_friction(),
             hash: Hashes {
                 scenario: self.inputs.scenario_hash.clone(),
                 policy: self.inputs.policy_hash.clone(),
