@@ -16,6 +16,9 @@ pub(super) fn check_columns(
 ) -> Result<(), String> {
     let known: Vec<&str> = needed.iter().chain(optional).copied().collect();
     if let Some(name) = header.iter().find(|name| !known.contains(name)) {
+        if name.contains([';', '\t']) {
+            return Err("the columns must be separated by commas".to_owned());
+        }
         let meant =
             suggest(name, known.iter().copied()).map_or_else(String::new, |meant| format!("did you mean `{meant}`? "));
         return Err(format!("there is no column `{name}`; {meant}columns are {}{}", known.join(", "), advice(name)));

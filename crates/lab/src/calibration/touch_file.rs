@@ -233,6 +233,7 @@ mod tests {
         let header = |text: &str| read_touches(text.as_bytes()).unwrap_err().to_string();
         let found = header(&HEADER.replace("heading_deg", "headng_deg"));
         assert!(found.starts_with("line 1: there is no column `headng_deg`; did you mean `heading_deg`?"), "{found}");
+        assert!(header(&HEADER.replace(',', ";")).contains("separated by commas"));
         assert!(header(&HEADER.replace("side,", "")).contains("the column `side` is missing"));
         assert!(header(&HEADER.replace("radius_mm", "side")).contains("the column `side` occurs twice"));
         assert!(read_touches(HEADER.as_bytes()).unwrap_err().to_string().contains("there are no touches"));

@@ -41,7 +41,7 @@ impl RunResult {
             inclination: None,
             whiskers: Vec::new(),
             latency: Section::empty(),
-            untold_friction: None,
+            friction: None,
             hash,
         }
     }

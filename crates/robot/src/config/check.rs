@@ -1,6 +1,6 @@
 //! Checks of several values of a configuration.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use vibrissa_mlx90393::{Address, Axis};
 use vibrissa_runtime::calibration::Calibration;
@@ -114,7 +114,7 @@ fn boards(config: &Config) -> Result<(), Inconsistency> {
 pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
     for (index, bus) in config.buses.iter().enumerate() {
         let (device, path) = (bus.device.display(), format!("buses.{index}.device"));
-        if bus.device.as_os_str().is_empty() {
+        if is_blank(&bus.device) {
             return fault(path, "`device` is empty; give the device file of the bus, such as `/dev/i2c-1`");
         }
         if let Some(other) = config.buses.iter().take(index).find(|other| device::are_one(&other.device, &bus.device)) {
@@ -134,11 +134,16 @@ pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
     if let Some(mqtt) = &config.mqtt {
         broker(mqtt)?;
     }
-    if config.record.as_ref().is_some_and(|record| record.directory.as_os_str().is_empty()) {
+    if config.record.as_ref().is_some_and(|record| is_blank(&record.directory)) {
         return fault("record.directory", "`directory` is empty; give a directory, such as `/var/lib/vibrissa`");
     }
     check(config)?;
     magnets(config)
+}
+
+/// True for a path without a name.
+fn is_blank(path: &Path) -> bool {
+    path.as_os_str().to_string_lossy().trim().is_empty()
 }
 
 /// Checks the addresses of packets.
@@ -170,7 +175,7 @@ fn broker(mqtt: &MqttConfig) -> Result<(), Inconsistency> {
     if mqtt.host.trim().is_empty() {
         return fault("mqtt.host", "`host` is empty; give the name or the address of the broker, such as `127.0.0.1`");
     }
-    let is_empty = |path: &Option<PathBuf>| path.as_ref().is_some_and(|path| path.as_os_str().is_empty());
+    let is_empty = |path: &Option<PathBuf>| path.as_ref().is_some_and(|path| is_blank(path));
     if is_empty(&mqtt.password_file) {
         return fault("mqtt.password_file", "`password_file` is empty; give the path of the file with the password");
     }

@@ -151,6 +151,8 @@ fn access_to_links_is_checked_before_the_start() {
     }
     for (mqtt, words) in [
         ("tls: {ca: \"\"}", "`ca` is empty"),
+        ("tls: {ca: \" \"}", "`ca` is empty"),
+        ("user: \" \", password_file: /p", "`user` of `mqtt` is empty"),
         ("user: robot", "`mqtt` has a `user` and no `password_file`"),
         ("user: robot, password_file: \"\"", "`password_file` is empty"),
     ] {
@@ -184,7 +186,18 @@ fn messages_have_the_words_of_the_configuration() {
         ("address: 0x0D", "address: 0x0C", "two boards on /dev/i2c-1 have the address 0x0c"),
         ("device: /dev/i2c-1", "device:", "`device`: must be a path, found nothing"),
         ("device: /dev/i2c-1", "device: \"\"", "`device` is empty"),
+        ("device: /dev/i2c-1", "device: \" \"", "`device` is empty"),
         ("device: /dev/i2c-1", "device: [a]", "found a list"),
+        ("gain: 7", "gain: 7.0", "`gain`: must be a whole number from 0 to 7, found `7.0`"),
+        ("gain: 7", "gain: \"7\"", "`gain`: must be a whole number from 0 to 7, found the text `7`"),
+        ("address: 0x0C", "address: \"0x0C\"", "found the text `0x0C`"),
+        ("{udp: {address: \"127.0.0.1:9750\"}}", "udp", "must be keys with values, found the word alone"),
+        (
+            "{udp: {address: \"127.0.0.1:9750\"}}",
+            "{}",
+            "must be exactly one of `dry_run` or `udp` or `mqtt`, found no key",
+        ),
+        ("{udp: {address: \"127.0.0.1:9750\"}}", "{udp: , mqtt: }", "found `udp` and `mqtt`"),
         ("127.0.0.1:9750", "robot.local", "must be an IP address with a port"),
         ("speed: 0.1 m/s", "speed: 0.1", "`speed`: `0.1` is not a speed"),
         ("speed: 0.1 m/s", "speed: 0.1 kg", "`speed`: `0.1 kg` is not a speed"),
