@@ -24,13 +24,13 @@ use super::trials::{ReportFiles, inputs, make_directory, report_events, report_v
 use super::values::parse_seed;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
-use vibrissa_lab::emulated;
+use vibrissa_lab::emulated::{self, EmulatedResult};
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
 use vibrissa_lab::report::{Table, faults_table, results_table};
 use vibrissa_lab::results::{DriveResult, UndetectedFault};
 use vibrissa_lab::trial::{Inputs, Trial};
 use vibrissa_text::file::CommandFiles;
-use vibrissa_world::scene::Scene;
+use vibrissa_world::scene::{Outcome, Scene};
 
 const EXAMPLE: &str = "Example:\n  vibrissa compile policies/thesis.fsm --out thesis.machine\n  vibrissa drive thesis.machine --emulate scenarios/box.yaml\n\nOn the robot:\n  vibrissa drive thesis.machine --config /etc/vibrissa/array.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed, or a fault stopped the robot; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -212,8 +212,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     if let Some(report) = report {
         report.write(&provenance, &trial, &emulated.result, &document)?;
     }
-    let undetected = settings.injections.iter().filter(|it| !it.was_detected(&emulated.events, emulated.begun_ns));
-    let undetected: Vec<_> = undetected.copied().collect();
+    let undetected = undetected(&settings.injections, &emulated);
     let result = DriveResult::new(document, &emulated.events, emulated.begun_ns, emulated.missed, &undetected);
     for UndetectedFault { kind, part, at_s } in &result.undetected {
         output::message(format_args!(
@@ -226,6 +225,15 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         serve_on(&live);
     }
     Ok(exit)
+}
+
+/// The faults that neither the supervisor nor the policy has noticed. A policy notices a fault if it fails during it.
+fn undetected(injections: &[Injection], emulated: &EmulatedResult) -> Vec<Injection> {
+    let EmulatedResult { result, events, begun_ns, ended_ns, .. } = emulated;
+    let has_failed = result.run.outcome == Outcome::Failed;
+    let noticed =
+        |it: &&Injection| it.was_detected(events, *begun_ns) || (has_failed && it.may_cause(*ended_ns, *begun_ns));
+    injections.iter().filter(|it| !noticed(it)).copied().collect()
 }
 
 /// The figures of the run, and its faults if there are any.

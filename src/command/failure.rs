@@ -1,6 +1,7 @@
 //! Errors of commands.
 
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 #[cfg(feature = "live")]
 use crate::live::LiveError;
@@ -43,13 +44,13 @@ pub(super) enum Failure {
     Load(#[from] LoadError),
     #[error(transparent)]
     GivenMachine(ArtifactError),
-    #[error("cannot make the folder {}: {cause}; choose another path with --out", path.display())]
+    #[error("cannot make the folder {}: {words}; choose another path with --out", path.display(), words = in_words(cause))]
     Folder { path: PathBuf, cause: std::io::Error },
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error("{} is no older report: {cause}; give the directory of an earlier `vibrissa bench --out`", path.display())]
     Older { path: PathBuf, cause: OlderRunsError },
-    #[error("cannot write {}: {cause}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display())]
+    #[error("cannot write {}: {words}; make it writable, or print the result instead: vibrissa fmt - < {}", path.display(), path.display(), words = in_words(cause))]
     Rewrite { path: PathBuf, cause: std::io::Error },
     #[error("{} is a compiled machine, which has no tests; test its policy", policy.display())]
     NoText { policy: PathBuf },
@@ -106,7 +107,8 @@ pub(super) enum Failure {
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
     #[error(
-        "cannot watch files: the system starts no thread for that ({0}); end other programs, or run without --watch"
+        "cannot watch files: the system starts no thread for that ({words}); end other programs, or run without --watch",
+        words = in_words(.0)
     )]
     NoWatch(std::io::Error),
     #[error("{} and {} have the same name `{name}`; run them separately", first.display(), second.display())]
@@ -157,10 +159,10 @@ pub(super) enum Failure {
     Answer(serde_json::Error),
     #[error("a stress test cannot be made: {0}; this is a fault of the program, please report it")]
     Case(#[from] CaseError),
-    #[error("cannot write to standard output: {0}")]
+    #[error("cannot write to standard output: {words}", words = in_words(.0))]
     Print(std::io::Error),
     #[cfg(feature = "lsp")]
-    #[error("the connection to the editor is lost: {0}")]
+    #[error("the connection to the editor is lost: {words}", words = in_words(.0))]
     Editor(std::io::Error),
     #[cfg(not(feature = "lsp"))]
     #[error("this build has no language server; build it with one: cargo build --release --features lsp")]
@@ -172,8 +174,9 @@ pub(super) enum Failure {
     #[error("{}: {cause}", policy.display())]
     View { policy: PathBuf, cause: UnknownState },
     #[error(
-        "the real array is driven by the program `vibrissa-robot`, which cannot be started: {0}. Install it on the robot \
-         (`cargo x pi`, or `cargo install --path crates/robot`), or drive a simulated array with --emulate SCENARIO"
+        "the real array is driven by the program `vibrissa-robot`, which cannot be started: {words}. Install it on the robot \
+         (`cargo x pi`, or `cargo install --path crates/robot`), or drive a simulated array with --emulate SCENARIO",
+        words = in_words(.0)
     )]
     NoRobotProgram(std::io::Error),
     #[error("{}: {cause}", path.display())]

@@ -17,7 +17,8 @@ use super::trials::make_directory;
 use vibrissa_lab::report::{summary_table, sweep_page};
 use vibrissa_lab::results::{Provenance, SeedRange, add_seeds};
 use vibrissa_lab::sweep::{
-    Plan, Results, RunRow, ScenesOf, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line, run_rows,
+    Plan, ReadLine, Results, RunRow, ScenesOf, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line,
+    run_rows,
 };
 use vibrissa_lab::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
 use vibrissa_text::file::{CommandFiles, Output};
@@ -113,7 +114,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
         |task, answer| {
             let index = left[task];
             let added = line(sweep, index, answer).and_then(|line| {
-                let (key, figures) = read_line(&line).map_err(Failure::Answer)?;
+                let ReadLine { key, figures, .. } = read_line(&line).map_err(Failure::Answer)?;
                 results.add(&line)?;
                 calibrations.extend(read_calibration(&line));
                 done.insert(index, figures);

@@ -15,7 +15,7 @@ use vibrissa_declare::figures::Metric;
 use vibrissa_lab::load::GivenMismatch;
 use vibrissa_lab::report::{RunFigures, retrieval_picture};
 use vibrissa_lab::results::{
-    Collisions, Document, Ending, Failsafes, Inclination, Provenance, RunResult, WhiskerResponse,
+    Collisions, Document, Ending, Failsafes, Inclination, ObjectFriction, Provenance, RunResult, WhiskerResponse,
 };
 use vibrissa_lab::run::{Trace, Watcher};
 use vibrissa_lab::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
@@ -239,11 +239,21 @@ pub(super) fn extended(stem: &Path, extension: &str) -> PathBuf {
 
 /// Names the whiskers that seem dead or insensitive.
 pub(super) fn report_dead_whiskers(scene: &str, result: &RunResult) {
+    let friction = match result.friction {
+        Some(ObjectFriction { coefficient, is_assumed: false }) => format!(
+            "; a likely cause is the friction of {coefficient}, which perception does not assume: state it in \
+             `rig.sensing.friction`"
+        ),
+        Some(ObjectFriction { coefficient, .. }) => {
+            format!("; a likely cause is the friction of {coefficient}, with which tips stick")
+        }
+        None => String::new(),
+    };
     for WhiskerResponse { whisker, bent_s, response, .. } in result.dead_whiskers() {
         let percent = 100.0 * response.unwrap_or(0.0);
         output::message(format_args!(
             "{scene}: warning: {whisker} seems dead or insensitive: it was bent for {bent_s:.1} s, and its perceived bend \
-             changed by {percent:.0} % of the true one"
+             changed by {percent:.0} % of the true one{friction}"
         ));
     }
 }

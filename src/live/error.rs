@@ -1,6 +1,7 @@
 //! Errors of the live page.
 
 use std::net::SocketAddr;
+use vibrissa_text::system::in_words;
 
 use thiserror::Error;
 use vibrissa_runtime::control::BindError;
@@ -9,7 +10,7 @@ use vibrissa_runtime::control::BindError;
 #[derive(Debug, Error)]
 pub enum LiveError {
     /// The address cannot be used.
-    #[error("cannot listen on {address}: {cause}; give another address, such as --live 127.0.0.1:8080")]
+    #[error("cannot listen on {address}: {words}; give another address, such as --live 127.0.0.1:8080", words = in_words(cause))]
     Listen {
         /// The address.
         address: SocketAddr,
@@ -28,7 +29,7 @@ pub enum LiveError {
     #[error("the system gives no random numbers for a token ({0}); give one with --live-token-file")]
     Random(String),
     /// The system starts no thread.
-    #[error("the system starts no thread for the live page ({0}); end other programs, or run without --live")]
+    #[error("the system starts no thread for the live page ({words}); end other programs, or run without --live", words = in_words(.0))]
     Thread(std::io::Error),
     /// The rig does not have what the policy needs.
     #[error(transparent)]

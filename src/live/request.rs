@@ -105,9 +105,8 @@ impl Access {
     fn is_own(&self, host: &str) -> bool {
         let (name, port) = match host.rsplit_once(':') {
             Some((name, port)) if !port.ends_with(']') => {
-                // A number alone: a sign would be parsed too.
-                let is_number = !port.is_empty() && port.bytes().all(|byte| byte.is_ascii_digit());
-                (name, port.parse().ok().filter(|_| is_number))
+                // Only as browsers write it: a sign and leading zeros would be parsed too.
+                (name, port.parse().ok().filter(|number: &u16| number.to_string() == port))
             }
             _ => (host, Some(80)),
         };
@@ -146,13 +145,21 @@ mod tests {
     #[test]
     fn a_page_is_served_only_under_the_names_of_this_machine() {
         let access = access("127.0.0.1:8080", None);
-        let status = |host| access.check(head("/", host, "").as_bytes());
+        let status = |host: &str| access.check(head("/", host, "").as_bytes());
         assert_eq!(status("127.0.0.1:8080"), Ok(Request::Page));
         assert_eq!(status("localhost:8080"), Ok(Request::Page));
         for host in
             ["evil.example:8080", "127.0.0.1:81", "127.0.0.1", "10.0.0.1:8080", "", "localhost.evil.example:8080"]
         {
             assert_eq!(status(host), Err(OTHER_HOST), "{host}");
+        }
+        for port in
+            ["+8080", "-8080", "08080", "0008080", "8080 ", " 8080", "80 80", "0x1f90", "８080", "8080.", "73616", ""]
+        {
+            let host = format!("127.0.0.1:{port}");
+            // White space around a header is not a part of it.
+            let due = if host.trim() == "127.0.0.1:8080" { Ok(Request::Page) } else { Err(OTHER_HOST) };
+            assert_eq!(status(&host), due, "{host}");
         }
         assert_eq!(access.check(b"GET / HTTP/1.1\r\n\r\n"), Err(OTHER_HOST));
     }

@@ -1,6 +1,7 @@
 //! Errors of videos.
 
 use std::path::PathBuf;
+use vibrissa_text::system::in_words;
 
 use vibrissa_mujoco::visual::RenderError;
 
@@ -28,7 +29,7 @@ pub enum VideoError {
     #[error("the GIF cannot be encoded: {0}")]
     Gif(#[from] gif::EncodingError),
     /// ffmpeg is missing.
-    #[error("MP4 needs the program ffmpeg, which cannot be started ({0}); install it, or write a .gif")]
+    #[error("MP4 needs the program ffmpeg, which cannot be started ({words}); install it, or write a .gif", words = in_words(.0))]
     NoFfmpeg(std::io::Error),
     /// ffmpeg ended with an error.
     #[error("ffmpeg could not encode the video: {0}; it needs the encoder libx264, or write a .gif")]

@@ -3,6 +3,7 @@
 use std::io::{Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread::JoinHandle;
+use vibrissa_text::system::in_words;
 
 use super::error::VideoError;
 use super::settings::Settings;
@@ -68,7 +69,7 @@ impl Mp4Encoder {
         let messages = String::from_utf8_lossy(&messages);
         let messages: String = messages.trim().chars().take(MOST_MESSAGES).collect();
         VideoError::Ffmpeg(if messages.is_empty() {
-            status.map_or_else(|error| error.to_string(), |status| status.to_string())
+            status.map_or_else(|error| in_words(&error), |status| status.to_string())
         } else {
             messages.replace('\n', ", ")
         })

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use vibrissa_language::compile;
 use vibrissa_runtime::geometry::Vector2;
 use vibrissa_runtime::machine::{
-    Action, BodyScalar, ContourVector, Machine, MapQuestion, MapScalar, MapVector, Mark, Program, Senses, WhiskerScalar,
-    WhiskerVector,
+    Action, BodyScalar, ContourVector, Machine, MapQuestion, MapScalar, MapVector, Mark, Program, Senses,
+    WhiskerScalar, WhiskerVector,
 };
 use vibrissa_text::diagnostic::{Colour, Source, terminal};
 

@@ -25,6 +25,15 @@ fn every_malformed_policy_is_answered_as_reviewed() {
 }
 
 #[test]
+fn a_text_whose_lines_end_with_cr_alone_is_told_so() {
+    let text = "# A policy\rmachine m\rwhisker r0\rinitial S\rstate S { do stop() }\r";
+    let [fault] = faults(text).try_into().unwrap();
+    assert_eq!((fault.message.as_str(), fault.primary.span.start), ("the lines end with CR alone", 10));
+    assert!(fault.hints[0].contains("LF or CR LF"), "{fault:?}");
+    assert!(faults(&text.replace('\r', "\r\n")).iter().all(|fault| !fault.message.contains("CR")));
+}
+
+#[test]
 fn faults_come_in_the_order_of_the_text() {
     let text = "machine m param a = 1 furlong initial Nowhere state S { do nothing() when 1 -> S after 2 -> S }";
     assert_eq!(codes(text), ["P0302", "P0201", "P0201", "P0301", "P0301"]);

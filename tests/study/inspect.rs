@@ -138,6 +138,8 @@ fn a_breakpoint_that_names_no_state_or_transition_is_shown_as_it_was_written() {
             "its guards are `",
         ),
         ("Explorin: r0.touching", "there is no state `Explorin`", "did you mean `Exploring`?"),
+        ("", "a breakpoint is empty", "write a state such as `Following`"),
+        ("  ", "a breakpoint is empty", "write a state such as `Following`"),
         ("Qqqqqqq", "there is no state `Qqqqqqq`", "the states are `Exploring`"),
     ] {
         let (shown, faults) = Breakpoints::new(&source, &["time > 1 s".to_owned(), text.to_owned()]).unwrap_err();

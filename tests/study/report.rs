@@ -42,6 +42,7 @@ fn identity() -> Identity {
         seed: 7,
         mismatch: None,
         calibration: None,
+        friction: None,
         hash: Hashes { scenario, policy, engine },
     }
 }

@@ -35,6 +35,10 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     let found = source.slice(span);
     let opened = brackets(&source.text[..at]).ok().and_then(|opened| opened.last().copied());
 
+    if let Some(end) = lone_return(&source.text) {
+        return Diagnostic::error("P0101", "the lines end with CR alone", end, "U+000D, which ends no line here")
+            .hint("save the file with LF or CR LF as the ends of its lines");
+    }
     if found.is_empty() {
         return at_the_end(source, at, rules, opened);
     }
@@ -74,6 +78,12 @@ pub(super) fn syntax_error(source: &Source, error: &Error<Rule>) -> Diagnostic {
     }
     let others: &[&str] = if rules.contains(&Rule::file) { &["library", "tests"] } else { &[] };
     did_you_mean(diagnostic, found, rules.iter().filter_map(|&rule| first_word(rule)).chain(others.iter().copied()))
+}
+
+/// The first end of a line of a text whose lines all end with CR alone.
+fn lone_return(text: &str) -> Option<Span> {
+    let at = text.find('\r').filter(|_| !text.contains('\n'))?;
+    Some(Span::new(at, at + 1))
 }
 
 /// The diagnostic for a text that ends too early.

@@ -1,6 +1,7 @@
 //! Texts of users: errors with their positions, and files.
 //!
 //! - [`diagnostic`] has one type for errors and warnings in texts, and its renderings.
+//! - [`system`] words errors of the operating system.
 //! - [`mod@file`] opens every file: it refuses what would block, bounds what is read, and replaces a file as a whole or not at all.
 //!
 //! # Where to begin
@@ -11,3 +12,4 @@
 pub mod diagnostic;
 #[cfg(feature = "files")]
 pub mod file;
+pub mod system;

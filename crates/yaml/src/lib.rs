@@ -21,5 +21,5 @@ pub use calibration::{CALIBRATION_FORMAT, CalibrationError, read_calibration};
 pub use fields::{Fields, list};
 pub use node::{Entry, Node, Placed};
 pub use parse::{parse, root_place};
-pub use reader::{Files, Reader, written};
+pub use reader::{Files, Reader, number_text, written};
 pub use value::{Fault, read_value};

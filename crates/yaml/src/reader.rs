@@ -276,8 +276,14 @@ pub fn written(node: &Node) -> String {
     match node {
         Node::Bool(flag) => flag.to_string(),
         Node::Integer(integer) => integer.to_string(),
-        Node::Float(float) => float.to_string(),
+        Node::Float(float) => number_text(*float),
         Node::Text(text) => text.clone(),
         other => other.kind().to_owned(),
     }
+}
+
+/// A number in a message, with all its digits. A very large or a very small one has an exponent instead of its zeros.
+#[must_use]
+pub fn number_text(number: f64) -> String {
+    if number == 0.0 || (1e-6..1e16).contains(&number.abs()) { number.to_string() } else { format!("{number:e}") }
 }

@@ -13,7 +13,7 @@ use vibrissa_runtime::units::suggest;
 use vibrissa_text::diagnostic::Span;
 
 use crate::node::{Entry, Node, Placed};
-use crate::reader::written;
+use crate::reader::{number_text, written};
 
 /// Reads a value of any type from a tree.
 ///
@@ -145,18 +145,33 @@ fn words(found: Unexpected<'_>) -> String {
         Unexpected::Bool(flag) => format!("`{flag}`"),
         Unexpected::Unsigned(number) => format!("`{number}`"),
         Unexpected::Signed(number) => format!("`{number}`"),
-        Unexpected::Float(number) => format!("`{number}`"),
+        // A whole number would be one without its point.
+        Unexpected::Float(number) if number.fract() == 0.0 && number.abs() < 1e15 => format!("`{number:.1}`"),
+        Unexpected::Float(number) => format!("`{}`", number_text(number)),
+        Unexpected::Str(text) if looks_like_a_number(text) => format!("the text `{text}`"),
         Unexpected::Str(text) => format!("`{text}`"),
         Unexpected::Seq => "a list".to_owned(),
         Unexpected::Map => "keys with values".to_owned(),
+        Unexpected::UnitVariant => "the word alone".to_owned(),
         _ => "another value".to_owned(),
     }
+}
+
+/// True for a text that would be a number without its quotes.
+fn looks_like_a_number(text: &str) -> bool {
+    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0o"));
+    text.parse::<f64>().is_ok_and(f64::is_finite)
+        || digits.is_some_and(|digits| u64::from_str_radix(digits, 16).is_ok())
 }
 
 /// A value of the text in a message.
 fn quoted(node: &Node) -> String {
     match node {
-        Node::Null | Node::List(_) | Node::Mapping(_) => node.kind().to_owned(),
+        Node::Mapping(entries) if entries.is_empty() => "no key".to_owned(),
+        Node::Mapping(entries) => {
+            entries.iter().map(|entry| format!("`{}`", entry.key.value)).collect::<Vec<_>>().join(" and ")
+        }
+        Node::Null | Node::List(_) => node.kind().to_owned(),
         scalar => format!("`{}`", written(scalar)),
     }
 }
@@ -171,7 +186,7 @@ impl Reader<'_> {
             Node::Text(text) => visitor.visit_str(text),
             // A quantity without a unit is refused with better words by its own reader.
             Node::Integer(integer) => visitor.visit_str(&integer.to_string()),
-            Node::Float(float) => visitor.visit_str(&float.to_string()),
+            Node::Float(float) => visitor.visit_str(&number_text(*float)),
             _ => return self.any(visitor),
         };
         read.map_err(|fault: Fault| fault.at(self.0.span))

@@ -258,6 +258,7 @@ fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
         "shaft",
         "sweep",
         "swipe",
+        "tracing",
         "tunnel",
     ];
     assert_eq!(labels("machine m\nuse \u{a7}"), modules.map(|module| format!("std.{module}")));

@@ -2,7 +2,8 @@
 
 use vibrissa_runtime::geometry::{Vector2, rotate, wrap};
 use vibrissa_runtime::machine::{
-    Action, BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, Mark, Mover, Senses, Turn, WhiskerScalar, WhiskerVector,
+    Action, BodyScalar, ContourVector, MapQuestion, MapScalar, MapVector, Mark, Mover, Senses, Turn, WhiskerScalar,
+    WhiskerVector,
 };
 use vibrissa_runtime::math;
 

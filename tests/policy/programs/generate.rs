@@ -366,10 +366,9 @@ impl Grower<'_> {
             }
             23 if may.command || may.set => match self.pick(3) {
                 0 => Statement::TellMap("give_up", Vec::new()),
-                1 => Statement::TellMap(
-                    "go_to",
-                    vec![self.expression(Type::Place, 1), self.expression(Type::Angle, 1)],
-                ),
+                1 => {
+                    Statement::TellMap("go_to", vec![self.expression(Type::Place, 1), self.expression(Type::Angle, 1)])
+                }
                 _ => Statement::TellMap(
                     "felt",
                     vec![self.expression(Type::Place, 1), self.expression(Type::Direction, 1)],

@@ -225,12 +225,9 @@ impl<'g> Grower<'g> {
             Type::Place if self.pick(3) == 0 => Expression::Body(self.one_of(&["nose", "tail"])),
             Type::Place => self.of_whisker(&["tip", "base"]),
             Type::Contour => self.of_whisker(&["contour"]),
-            Type::Shift
-            | Type::Whisker
-            | Type::Frequency
-            | Type::Choice
-            | Type::Record
-            | Type::List => self.simple(r#type),
+            Type::Shift | Type::Whisker | Type::Frequency | Type::Choice | Type::Record | Type::List => {
+                self.simple(r#type)
+            }
         }
     }
 

@@ -86,10 +86,24 @@ fn a_sensor_that_dies_in_contact_is_named_and_the_machine_goes_on_after_it() {
 }
 
 #[test]
+fn a_fault_at_which_the_policy_fails_is_not_said_to_be_without_effect() {
+    let output = emulated(
+        "drive-overbent",
+        &[("faults.yaml", "- {at_ms: 25000, for_ms: 500, kind: overbent_whisker, part: 0}\n")],
+        "drive policies/thesis.fsm --emulate scenarios/disk.yaml --world quasistatic --inject @/faults.yaml --json",
+    );
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("a whisker at its limit") && !message.contains("was not detected"), "{message}");
+    let document: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["undetected"], serde_json::json!([]));
+}
+
+#[test]
 fn a_fault_of_the_configuration_names_its_file_with_the_line_and_not_the_scenario() {
     let array = std::fs::read_to_string(format!("{ROOT}/deploy/pi/array.yaml")).unwrap();
     for (index, (from, to, words)) in [
-        ("speed: 0.1 m/s", "speed: -0.1 m/s", "`speed` cannot be -100 mm/s; it must be from 1 mm/s to 100 m/s"),
+        ("speed: 0.1 m/s", "speed: -0.1 m/s", "`speed` cannot be -0.1 m/s; it must be from 1 mm/s to 100 m/s"),
         ("length: 75 mm", "length: 0 mm", "`length` cannot be"),
         ("address: 0x0C", "address: 0x1C", "from 0x0C to 0x1B"),
         ("device: /dev/i2c-3", "device: /dev/./i2c-1", "are one bus"),

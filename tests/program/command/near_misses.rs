@@ -85,6 +85,15 @@ fn every_scenario_is_run_under_its_own_policy_unless_one_is_given() {
     assert_eq!(listed(&[&scenes[2]]), [pair("first", "three")].into());
     let given = listed(&[&scenes[0], "--policy", &file("second.fsm")]);
     assert_eq!(given, [pair("second", "one")].into());
+
+    // The table names the policy above it, or in its first column if there are several.
+    let table = |scenes: &[String]| {
+        let scenes: Vec<&str> = scenes.iter().map(String::as_str).collect();
+        stdout(&vibrissa(&[&["inspect", "near-misses"], &*scenes].concat()))
+    };
+    assert!(table(&scenes[2..]).starts_with("Policy: first\n"), "{}", table(&scenes[2..]));
+    let both = table(&scenes);
+    assert!(both.contains(" policy ") && both.contains("\n first ") && both.contains("\n second "), "{both}");
 }
 
 #[test]

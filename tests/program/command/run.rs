@@ -319,6 +319,25 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
     }
 
     #[test]
+    fn friction_is_named_where_whiskers_seem_dead() {
+        let friction = |rig: &str| {
+            let scene = directory("untold_friction").join("scene.yaml");
+            let text = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
+            std::fs::write(&scene, format!("{text}rig: {rig}\n")).unwrap();
+            let output = vibrissa(&["run", scene.to_str().unwrap(), "--policy", "vibrissa", "--world", "quasistatic"]);
+            stderr(&output).lines().filter(|line| line.contains("seems dead")).map(str::to_owned).collect::<Vec<_>>()
+        };
+        let untold = friction("{physics: {friction: 1}}");
+        assert!(!untold.is_empty());
+        assert!(
+            untold.iter().all(|line| line.contains("the friction of 1, which perception does not assume")),
+            "{untold:?}"
+        );
+        let told = friction("{physics: {friction: 1}, sensing: {friction: 1}}");
+        assert!(told.iter().all(|line| line.contains("with which tips stick")), "{told:?}");
+    }
+
+    #[test]
     fn a_dead_whisker_is_named_in_the_messages_the_table_and_the_json() {
         let mismatch = directory("dead_whisker").join("dead.yaml");
         std::fs::write(&mismatch, "whiskers: {r0: {sensor: {gain: -90 %}}}\n").unwrap();
@@ -338,6 +357,7 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
         assert_eq!(output.status.code(), Some(1));
         assert!(stderr(&output).contains("warning: r0 seems dead"), "{}", stderr(&output));
         assert!(!stderr(&output).contains("l0 seems dead"), "{}", stderr(&output));
+        assert!(!stderr(&output).contains("friction"), "there is none: {}", stderr(&output));
         // The heading `seem dead` has two lines.
         assert!(stdout(&output).contains(" seem ") && stdout(&output).contains(" r0 "), "{}", stdout(&output));
         let output = vibrissa(&[&arguments[..], &["--json"]].concat());

@@ -187,7 +187,7 @@ fn a_process_for_runs_that_is_killed_costs_nothing_and_none_outlives_the_sweep()
 }
 
 #[test]
-fn a_crashed_run_is_repeated_and_a_line_with_the_name_of_another_run_is_refused() {
+fn a_run_without_a_result_is_repeated_and_a_line_that_contradicts_itself_is_refused() {
     let directory = directory("sweep-crashed");
     let file = directory.join("two.yaml").display().to_string();
     let text = format!(
@@ -205,8 +205,9 @@ fn a_crashed_run_is_repeated_and_a_line_with_the_name_of_another_run_is_refused(
     crashed.as_object_mut().unwrap().retain(|key, _| keys.contains(&key.as_str()));
     crashed["outcome"] = "crashed".into();
     crashed["reason"] = "its process was killed".into();
-    // As if it had crashed twice.
-    fs::write(&results, whole.replace(line, &format!("{crashed}\n{crashed}"))).unwrap();
+    let refused = crashed.to_string().replace("crashed", "refused");
+    // As if it had crashed, and had not begun at the second time.
+    fs::write(&results, whole.replace(line, &format!("{crashed}\n{refused}"))).unwrap();
     assert_eq!(vibrissa(&["sweep", &file, "--out", &out]).status.code(), Some(0));
     assert_eq!(count(&results), 5, "the run has a third line");
     assert_eq!(vibrissa(&["sweep", &file, "--out", &out]).status.code(), Some(0));
@@ -218,11 +219,25 @@ fn a_crashed_run_is_repeated_and_a_line_with_the_name_of_another_run_is_refused(
 
     let other = whole.lines().nth(1).unwrap();
     let name = |line: &str| serde_json::from_str::<Value>(line).unwrap()["run"].as_str().unwrap().to_owned();
-    fs::write(&results, whole.replace(&name(line), &name(other))).unwrap();
-    for arguments in [&["sweep", &file, "--out", &out][..], &["study", "merge", &results.display().to_string()]] {
-        let output = vibrissa(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(stderr(&output).contains("line 3: `run` is"), "{}", stderr(&output));
+    let changed = |key: &str, value: Value| {
+        let mut line: Value = serde_json::from_str(line).unwrap();
+        line[key] = value;
+        line.to_string()
+    };
+    for (with, words) in [
+        (line.replace(&name(line), &name(other)), "line 3: `run` is"),
+        (changed("settings", serde_json::json!({"stop": "{time: 2 s}"})), "line 3: `settings` contradicts the key"),
+        (changed("settings", serde_json::json!({})), "line 3: `settings` contradicts the key"),
+        (changed("trial", 7.into()), "line 3: `trial` contradicts the key"),
+        (changed("scenes", "polygon".into()), "line 3: `scenes` contradicts the key"),
+        (changed("passed", true.into()), "line 3: `passed` is true, which contradicts `violations`"),
+    ] {
+        fs::write(&results, whole.replace(line, &with)).unwrap();
+        for arguments in [&["sweep", &file, "--out", &out][..], &["study", "merge", &results.display().to_string()]] {
+            let output = vibrissa(arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            assert!(stderr(&output).contains(words), "{words}: {}", stderr(&output));
+        }
     }
 }
 

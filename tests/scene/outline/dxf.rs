@@ -206,7 +206,12 @@ fn blocks_that_cannot_be_drawn_are_told() {
     assert!(told(&["0 BLOCK 2 A 70 4 0 ENDBLK"], "0 INSERT 2 A").contains("of another file"));
     assert!(told(&[BLOCK], "0 INSERT 2 A 210 1").contains("tilted"));
     assert!(told(&[BLOCK], "0 INSERT 2 A 41 0").contains("the scale 0"));
-    assert!(told(&["0 BLOCK 2 A 0 INSERT 2 A 0 INSERT 2 A 0 ENDBLK"], "0 INSERT 2 A").contains("more than 32"));
+    assert!(told(&["0 BLOCK 2 A 0 INSERT 2 a 0 ENDBLK"], "0 INSERT 2 A").contains("the block `a` contains itself"));
+    let ring = ["0 BLOCK 2 A 0 INSERT 2 B 0 ENDBLK", "0 BLOCK 2 B 0 INSERT 2 A 0 ENDBLK"];
+    assert!(told(&ring, "0 INSERT 2 B").contains("the block `B` contains itself"));
+    let chain: Vec<String> = (0..40).map(|at| format!("0 BLOCK 2 c{at} 0 INSERT 2 c{} 0 ENDBLK", at + 1)).collect();
+    let chain: Vec<&str> = chain.iter().map(String::as_str).collect();
+    assert!(told(&chain, "0 INSERT 2 c0").contains("more than 32"));
     let rows = "0 INSERT 2 A 70 30000 71 30000 44 1 45 1";
     assert!(told(&["0 BLOCK 2 A 0 ENDBLK"], rows).contains("more than 500000"));
     // What no entity shows is not read.

@@ -124,9 +124,21 @@ fn paper_and_view_box_say_what_a_unit_is_and_the_scenario_overrules_them() {
     assert!((width("width='100mm' height='5cm'", None).unwrap() - 0.005).abs() < 1e-15);
     assert!((width("width='2in' height='1in'", None).unwrap() - 0.00254).abs() < 1e-15);
     assert!((width("width='100mm' height='5cm'", Some(1e-3)).unwrap() - 0.01).abs() < 1e-15);
-    for unknown in ["", "width='100' height='50'", "width='100mm'", "width='100%' height='100%'"] {
-        assert_eq!(width(unknown, None).unwrap_err().fault, OutlineFault::NoUnit, "{unknown}");
+    for (unknown, words) in [
+        ("", "`width` is missing"),
+        ("width='100' height='50'", "`width` is `100`, which is no physical length"),
+        ("width='100mm'", "`height` is missing"),
+        ("width='100%' height='100%'", "`width` is `100%`"),
+        ("width='200mm' height='100px'", "`height` is `100px`, which is no physical length"),
+        ("width='2dm' height='1dm'", "`width` is `2dm`"),
+        ("width='-2mm' height='1mm'", "`width` is `-2mm`"),
+    ] {
+        let fault = width(unknown, None).unwrap_err().fault;
+        let OutlineFault::NoLength { .. } = fault else { panic!("{unknown}: {fault:?}") };
+        assert!(fault.to_string().contains("does not state its unit") && fault.to_string().contains(words), "{fault}");
     }
+    let boxless = b"<svg width='20mm' height='10mm'><rect width='10' height='10'/></svg>";
+    assert_eq!(read(boxless, Format::Svg, &ReadOptions::default()).unwrap_err().fault, OutlineFault::NoViewBox);
 }
 
 #[test]

@@ -23,8 +23,17 @@ fn scored(scenario: &str, off: f64, change: impl FnOnce(&mut Score)) -> RunResul
     let run = run_with(&[arc_of_tips(0.03 + off, 0.0, TAU, 0.05 / 30.0)]);
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let (scenario, policy, world) = (scenario.to_owned(), "thesis".to_owned(), "mujoco".to_owned());
-    let identity =
-        Identity { scenario, policy, true_tips: false, world, seed: 0, mismatch: None, calibration: None, hash };
+    let identity = Identity {
+        scenario,
+        policy,
+        true_tips: false,
+        world,
+        seed: 0,
+        mismatch: None,
+        calibration: None,
+        friction: None,
+        hash,
+    };
     let mut score = Score::new(&run, &circle(Point2::origin(), 0.03).unwrap().into(), &Rig::default());
     change(&mut score);
     RunResult::new(identity, &run, &score, &[])

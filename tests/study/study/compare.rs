@@ -94,8 +94,17 @@ fn result(seed: u64, ticks: usize, outcome: Outcome) -> RunResult {
     run.outcome = outcome;
     let hash = Hashes { scenario: String::new(), policy: String::new(), engine: String::new() };
     let [scenario, policy, world] = ["disk", "m", "mujoco"].map(str::to_owned);
-    let identity =
-        Identity { scenario, policy, true_tips: false, world, seed, mismatch: None, calibration: None, hash };
+    let identity = Identity {
+        scenario,
+        policy,
+        true_tips: false,
+        world,
+        seed,
+        mismatch: None,
+        calibration: None,
+        friction: None,
+        hash,
+    };
     let score = Score::new(&run, &circle(Point2::origin(), 0.3).unwrap().into(), &Rig::default());
     RunResult::new(identity, &run, &score, &[])
 }

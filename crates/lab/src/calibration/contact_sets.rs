@@ -1,12 +1,12 @@
 //! Files of contact sets as comma-separated values.
 
-use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use vibrissa_runtime::calibration::ContactSet;
 
+use super::columns::check_columns;
 use super::count_set::CountSet;
 use vibrissa_world::geometry::Vector2;
 
@@ -72,25 +72,13 @@ fn read_rows(bytes: &[u8], reading: &str, most: f64) -> Result<Vec<(ContactSet, 
         reason: "every line must be UTF-8 text with as many values as the header has names".to_owned(),
     };
     let header = reader.headers().map_err(|error| refusal(&error))?.clone();
-    let needed = || POSITION.into_iter().chain([reading]);
-    let known = |name: &str| needed().chain(OPTIONAL).any(|known| known == name);
-    let at_top = |reason| SetsError { line: 1, reason };
-    if let Some(name) = header.iter().find(|name| !known(name)) {
-        let names = needed().chain(OPTIONAL).collect::<Vec<_>>().join(", ");
-        let advice = match (name, reading) {
-            (COUNTS, ANGLE) => ". Counts need the settings of the sensor: give --config and --neutral",
-            (ANGLE, COUNTS) => ". Base angles need no settings of a sensor: leave out --config and --neutral",
-            _ => "",
-        };
-        return Err(at_top(format!("there is no column `{name}`; columns are {names}{advice}")));
-    }
-    if let Some(name) = needed().find(|name| !header.iter().any(|found| found == *name)) {
-        return Err(at_top(format!("the column `{name}` is missing")));
-    }
-    let mut seen = BTreeSet::new();
-    if let Some(name) = header.iter().find(|name| !seen.insert(*name)) {
-        return Err(at_top(format!("the column `{name}` occurs twice; remove one")));
-    }
+    let advice = |name: &str| match (name, reading) {
+        (COUNTS, ANGLE) => ". Counts need the settings of the sensor: give --config and --neutral",
+        (ANGLE, COUNTS) => ". Base angles need no settings of a sensor: leave out --config and --neutral",
+        _ => "",
+    };
+    let [x, y] = POSITION;
+    check_columns(&header, &[x, y, reading], &OPTIONAL, advice).map_err(|reason| SetsError { line: 1, reason })?;
     let column = |name: &str| header.iter().position(|found| found == name);
     let mut sets = Vec::new();
     for record in reader.records() {

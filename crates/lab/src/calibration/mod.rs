@@ -3,6 +3,7 @@
 mod array_calibration;
 mod array_calibrations;
 mod array_pilot;
+mod columns;
 mod contact_sets;
 mod count_set;
 mod fit;

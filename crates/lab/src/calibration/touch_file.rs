@@ -1,10 +1,11 @@
 //! Files of touches of a known object as comma-separated values.
 
-use csv::{ReaderBuilder, Trim, Writer};
+use csv::{ReaderBuilder, StringRecord, Trim, Writer};
 use serde::{Deserialize, Serialize};
 use vibrissa_runtime::calibration::TouchReading;
 use vibrissa_runtime::mechanics::Obstacle;
 
+use super::columns::check_columns;
 use super::contact_sets::SetsError;
 use vibrissa_world::geometry::{Point2, Pose};
 
@@ -14,6 +15,22 @@ const MOST: usize = 1000;
 const FAR: f64 = 1e5;
 const TURNS: f64 = 3600.0;
 const BENT: f64 = 1e6;
+
+/// The columns of a file: the required ones, and the optional ones.
+const NEEDED: [&str; 11] = [
+    "whisker",
+    "body_x_mm",
+    "body_y_mm",
+    "heading_deg",
+    "object",
+    "object_x_mm",
+    "object_y_mm",
+    "side",
+    "base_angle_urad",
+    "in_air_urad",
+    "deviation_urad",
+];
+const OPTIONAL: [&str; 2] = ["radius_mm", "normal_deg"];
 
 /// A touch as a line of a file.
 #[derive(Serialize, Deserialize)]
@@ -58,18 +75,21 @@ enum Side {
 /// [`SetsError`] with the first invalid line.
 pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsError> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
+    let refusal = |error: csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line);
+        SetsError::new(line, "every line must be UTF-8 text with as many values as the header has names".to_owned())
+    };
+    let header = reader.headers().map_err(refusal)?.clone();
+    check_columns(&header, &NEEDED, &OPTIONAL, |_| "").map_err(|reason| SetsError::new(1, reason))?;
     let mut touches = Vec::new();
-    let mut rows = reader.deserialize::<Row>();
-    while let Some(row) = rows.next() {
-        let line = rows.reader().position().line();
-        let row = row.map_err(|error| {
-            let line = error.position().map_or(1, csv::Position::line);
-            SetsError::new(line, cause(&error))
-        })?;
+    for record in reader.records() {
+        let record = record.map_err(refusal)?;
+        let line = record.position().map_or(0, csv::Position::line);
         if touches.len() == MOST {
             return Err(SetsError::new(line, format!("there are more than {MOST} touches")));
         }
-        touches.push(row.touch().map_err(|reason| SetsError::new(line.saturating_sub(1), reason))?);
+        let row = record.deserialize(Some(&header)).map_err(|error| cause(&error, &header, &record));
+        touches.push(row.and_then(Row::touch).map_err(|reason| SetsError::new(line, reason))?);
     }
     if touches.is_empty() {
         return Err(SetsError::new(1, "there are no touches; write one in each line below the header".to_owned()));
@@ -90,12 +110,26 @@ pub fn write_touches<'t>(touches: impl Iterator<Item = (&'t str, &'t TouchReadin
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// What is wrong with a line.
-fn cause(error: &csv::Error) -> String {
-    match error.kind() {
-        csv::ErrorKind::Deserialize { err, .. } => err.to_string(),
-        _ => "every line must be UTF-8 text with as many values as the header has names".to_owned(),
+/// The columns of words, with the possible ones.
+const WORDS: [(&str, &[&str]); 2] =
+    [("object", &["pin", "edge", "face", "unknown_face"]), ("side", &["left", "right"])];
+
+/// What is wrong with the value of a line.
+fn cause(error: &csv::Error, header: &StringRecord, record: &StringRecord) -> String {
+    // The reader tells the column of a number, and not that of a word.
+    let column = match error.kind() {
+        csv::ErrorKind::Deserialize { err, .. } => err.field().and_then(|field| usize::try_from(field).ok()),
+        _ => None,
+    };
+    if let Some((name, found)) = column.and_then(|column| header.get(column).zip(record.get(column))) {
+        return format!("`{name}` must be a number, and is `{found}`");
     }
+    let mut values = header.iter().zip(record);
+    let wrong = values.find_map(|(name, found)| {
+        let (_, words) = WORDS.into_iter().find(|(column, words)| *column == name && !words.contains(&found))?;
+        Some(format!("`{name}` must be one of `{}`, and is `{found}`", words.join("`, `")))
+    });
+    wrong.unwrap_or_else(|| "the values cannot be read".to_owned())
 }
 
 impl Row {
@@ -189,9 +223,19 @@ mod tests {
         assert!(error("r0,0,0,0,edge,1,2,3,,left,1,1,0.1").contains("an edge has neither"));
         assert!(error("r0,0,0,0,edge,1,2,,,left,1,1,0").contains("`deviation_urad` must be above 0"));
         assert!(error("r0,nan,0,0,edge,1,2,,,left,1,1,0.1").contains("`body_x_mm` must be"));
-        assert!(error("r0,0,0,0,edge,1,2,,,middle,1,1,0.1").contains("left"));
+        assert!(
+            error("r0,0,0,0,edge,1,2,,,middle,1,1,0.1")
+                .ends_with("`side` must be one of `left`, `right`, and is `middle`")
+        );
+        assert!(error("r0,0,0,0,wall,1,2,,,left,1,1,0.1").contains("`object` must be one of `pin`, `edge`, `face`"));
+        assert!(error("r0,far,0,0,edge,1,2,,,left,1,1,0.1").ends_with("`body_x_mm` must be a number, and is `far`"));
         assert!(error("r0,0,0").contains("as many values"));
-        assert!(read_touches(b"whisker,x\nr0,1\n").is_err());
+        let header = |text: &str| read_touches(text.as_bytes()).unwrap_err().to_string();
+        let found = header(&HEADER.replace("heading_deg", "headng_deg"));
+        assert!(found.starts_with("line 1: there is no column `headng_deg`; did you mean `heading_deg`?"), "{found}");
+        assert!(header(&HEADER.replace(',', ";")).contains("separated by commas"));
+        assert!(header(&HEADER.replace("side,", "")).contains("the column `side` is missing"));
+        assert!(header(&HEADER.replace("radius_mm", "side")).contains("the column `side` occurs twice"));
         assert!(read_touches(HEADER.as_bytes()).unwrap_err().to_string().contains("there are no touches"));
     }
 

@@ -158,6 +158,11 @@ impl<'p, 'w> Toucher<'p, 'w> {
     fn touch(mut self, limits: &TouchLimits, until: f64) -> Result<WhiskerTouches, Fault> {
         let (start, whisker) = (self.pilot.time(), self.whisker());
         let plan = TouchPlan::new(whisker, self.pin.radius, EXPECTED_DEVIATION, &self.noise());
+        // Touches take minutes, and no reading is more exact than the model.
+        if let Err(refusal) = plan.check(whisker, limits.touches, MODEL_ANGLE) {
+            let untouched = WhiskerTouches::fitted(self.rig, self.index, Vec::new(), self.noise());
+            return Ok(WhiskerTouches { fit: Err(refusal), time: Some(0.0), ..untouched });
+        }
         let mut fit = TouchFit::untouched(whisker);
         let rest = ArrayPilot::rest_time((until - start) / limits.touches as f64);
         while self.touched.len() + self.missed.len() < limits.touches && self.pilot.time() + LAST < until {

@@ -28,6 +28,8 @@ pub struct EmulatedResult {
     pub events: Vec<FaultEvent>,
     /// Time at which the machine has begun (ns), after the start of the sensors and the measurement of neutral values.
     pub begun_ns: u64,
+    /// Time at which the run has ended (ns).
+    pub ended_ns: u64,
     /// Missed periods of each phase.
     pub missed: [u64; Phase::COUNT],
 }
@@ -113,5 +115,6 @@ pub fn run(
     let run = monitor.finish(emulation.control(), ending);
     let missed = Phase::ALL.map(|phase| emulation.vitals().missed(phase));
     let begun_ns = emulation.begun_ns().unwrap_or_default();
-    Ok(EmulatedResult { result: trial.scored(run), events: emulation.take_events(), begun_ns, missed })
+    let ended_ns = emulation.now_ns();
+    Ok(EmulatedResult { result: trial.scored(run), events: emulation.take_events(), begun_ns, ended_ns, missed })
 }

@@ -98,6 +98,13 @@ impl Breakpoints {
     /// follows it as a part.
     pub fn new(source: &Source, texts: &[String]) -> Result<Self, (Source, Vec<Diagnostic>)> {
         let plain = explain(source).map_err(|faults| (source.clone(), faults))?;
+        if let Some(empty) = texts.iter().find(|text| text.trim().is_empty()) {
+            let span = Span::new(0, empty.len());
+            let fault = Diagnostic::error("P0101", "a breakpoint is empty", span, "expected a state or a condition");
+            let fault =
+                fault.hint("write a state such as `Following`, or a condition such as `r0.base_angle > 300 urad`");
+            return Err((Source::new("--break", empty.as_str()), vec![fault]));
+        }
         let (states, first) = (&plain.program.states, plain.always.len());
         let state = |text: &String| states.iter().position(|state| *state.name == *text.trim());
         let (mut breakpoints, mut next, mut conditions) = (Vec::with_capacity(texts.len()), first, Vec::new());

@@ -1,6 +1,7 @@
 //! Errors of reading files.
 
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 #[cfg(feature = "robot")]
 use vibrissa_robot::recording::ReadError;
@@ -19,7 +20,7 @@ use super::text::reason;
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// The file cannot be read.
-    #[error("cannot read {}: {cause}", path.display())]
+    #[error("cannot read {}: {words}", path.display(), words = in_words(cause))]
     Read {
         /// The file.
         path: PathBuf,
@@ -28,9 +29,8 @@ pub enum LoadError {
     },
     /// There is no file at the path, and no built-in text has this name.
     #[error(
-        "cannot read {}: {cause}; a {sought} is needed here{}; the built-in names are {}",
-        path.display(), meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean `{meant}`?")), sought.names()
-    )]
+        "cannot read {}: {words}; a {sought} is needed here{}; the built-in names are {}",
+        path.display(), meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean `{meant}`?")), sought.names(), words = in_words(cause))]
     Missing {
         /// What the path is given for.
         sought: Sought,

@@ -8,6 +8,7 @@ use vibrissa_runtime::units::suggest;
 use super::LoadError;
 use vibrissa_text::diagnostic::{NotUtf8, Source, utf8};
 use vibrissa_text::file::CommandFiles;
+use vibrissa_text::system::in_words;
 
 /// Largest size of a text in bytes, as for the largest scenario.
 pub(super) const SIZE_LIMIT: usize = 1 << 20;
@@ -52,13 +53,13 @@ pub fn read_standard(files: &mut CommandFiles) -> Result<Source, LoadError> {
 /// The reason for a file that cannot be read. For a missing file it suggests a similar name.
 pub(super) fn reason(path: &Path, cause: &Error) -> String {
     if cause.kind() != ErrorKind::NotFound {
-        return cause.to_string();
+        return in_words(cause);
     }
     let siblings = siblings(path);
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     match suggest(name, siblings.iter().map(String::as_str).filter(|sibling| *sibling != name)) {
-        Some(meant) => format!("{cause}; did you mean `{meant}`?"),
-        None => cause.to_string(),
+        Some(meant) => format!("{}; did you mean `{meant}`?", in_words(cause)),
+        None => in_words(cause),
     }
 }
 

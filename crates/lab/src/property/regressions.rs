@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 use serde::Deserialize;
 
@@ -24,7 +25,7 @@ const HEADING: &str =
 #[derive(Debug, thiserror::Error)]
 pub enum RegressionsError {
     /// The file cannot be read.
-    #[error("cannot read {}: {cause}", path.display())]
+    #[error("cannot read {}: {words}", path.display(), words = in_words(cause))]
     Read {
         /// The file.
         path: PathBuf,
@@ -40,7 +41,7 @@ pub enum RegressionsError {
         cause: String,
     },
     /// The file cannot be written.
-    #[error("cannot keep the failing case in {}: {cause}; make the file writable, or give --no-keep", path.display())]
+    #[error("cannot keep the failing case in {}: {words}; make the file writable, or give --no-keep", path.display(), words = in_words(cause))]
     Write {
         /// The file.
         path: PathBuf,

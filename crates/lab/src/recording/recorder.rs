@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
+use vibrissa_text::system::in_words;
 
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Artifact, Observer};
@@ -101,7 +102,7 @@ impl Recorder {
         let thread = std::thread::Builder::new().name("recording".to_owned());
         match thread.spawn(move || write(&setup.0, &setup.1, empty, &receiver)) {
             Ok(handle) => self.thread = Some(WriterThread { sender, handle }),
-            Err(error) => self.failure = Some(RecordError::Thread(error.to_string())),
+            Err(error) => self.failure = Some(RecordError::Thread(in_words(&error))),
         }
     }
 }

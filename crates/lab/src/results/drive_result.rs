@@ -19,7 +19,7 @@ pub struct DriveResult {
     pub faults: Vec<FaultRecord>,
     /// Missed periods of each phase of the loop.
     pub missed: BTreeMap<String, u64>,
-    /// Injected faults that the supervisor has not detected, because they had no effect or the run had ended.
+    /// Injected faults that neither the supervisor nor the policy has noticed, because they had no effect or the run had ended.
     pub undetected: Vec<UndetectedFault>,
 }
 

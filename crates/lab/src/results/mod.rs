@@ -41,7 +41,7 @@ pub use rate::Rate;
 #[cfg(feature = "robot")]
 pub use replay_result::{DifferenceRecord, ReplayResult};
 pub use run_result::marked;
-pub use run_result::{Hashes, Identity, MismatchIdentity, OutOfPlane, RunResult, policy_label};
+pub use run_result::{Hashes, Identity, MismatchIdentity, ObjectFriction, OutOfPlane, RunResult, policy_label};
 pub use section::figure_in;
 pub use shown_value::{ShownNumber, ShownValue};
 pub use tally::{Figures, Rates, Tally, TipShares};

@@ -8,7 +8,7 @@ impl RunResult {
     /// The result of a run that could not begin for this `reason`.
     #[must_use]
     pub fn refused(identity: Identity, reason: String) -> Self {
-        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
+        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash, .. } = identity;
         Self {
             scenario,
             policy,
@@ -41,6 +41,7 @@ impl RunResult {
             inclination: None,
             whiskers: Vec::new(),
             latency: Section::empty(),
+            friction: None,
             hash,
         }
     }

@@ -93,6 +93,9 @@ pub struct RunResult {
     pub whiskers: Vec<WhiskerResponse>,
     #[serde(flatten)]
     pub(super) latency: Section<10>,
+    /// The friction of the objects. `None` without friction.
+    #[serde(skip)]
+    pub friction: Option<ObjectFriction>,
     /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
@@ -101,6 +104,15 @@ impl Document for RunResult {
     const FORMAT: &'static str = "run";
     // A run that met its stop condition but not all expectations was `completed`.
     const VERSION: u32 = 2;
+}
+
+/// The friction between whiskers and objects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ObjectFriction {
+    /// Its coefficient.
+    pub coefficient: f64,
+    /// True if perception assumes at least half of it for every whisker.
+    pub is_assumed: bool,
 }
 
 /// Names and hashes that identify a run.
@@ -121,6 +133,8 @@ pub struct Identity {
     /// The calibration of the array that control assumed. `None` for an array that is the assumed one, and that no
     /// calibration changes.
     pub calibration: Option<CalibrationIdentity>,
+    /// The friction of the objects. `None` without friction.
+    pub friction: Option<ObjectFriction>,
     /// Hashes of the inputs of the run.
     pub hash: Hashes,
 }
@@ -224,7 +238,7 @@ impl RunResult {
     /// The result of `run` with this `score` and these `violations` of the scenario.
     #[must_use]
     pub fn new(identity: Identity, run: &Run, score: &Score, violations: &[Violation]) -> Self {
-        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, hash } = identity;
+        let Identity { scenario, policy, true_tips, world, seed, mismatch, calibration, friction, hash } = identity;
         let wall_s = run.wall.as_secs_f64();
         Self {
             scenario,
@@ -258,6 +272,7 @@ impl RunResult {
             inclination: score.inclination.as_ref().map(|figures| Inclination::new(score, figures, &run.trace)),
             whiskers: score.responses.iter().filter_map(|one| WhiskerResponse::new(one, &run.trace)).collect(),
             latency: Section::of(score),
+            friction,
             hash,
         }
     }

@@ -3,7 +3,7 @@
 use crate::results::Document;
 use std::collections::BTreeMap;
 
-use serde::de::Error as _;
+use serde::de::{Error as _, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -92,14 +92,50 @@ impl SweepLine {
     }
 }
 
+/// The result of a run, read from its line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadLine {
+    /// The key of the run.
+    pub key: String,
+    /// The figures of the run.
+    pub figures: Figures,
+    scenes: String,
+    trial: u64,
+    settings: BTreeMap<String, String>,
+}
+
+impl ReadLine {
+    /// Checks that the line is that of the `run` with its key.
+    ///
+    /// # Errors
+    /// The contradiction.
+    pub(super) fn check(&self, run: &SweepRun<'_>) -> Result<(), String> {
+        let settings: BTreeMap<_, _> = run.settings().map(|(name, value)| (name.to_owned(), value)).collect();
+        let contradicts = [
+            ("scenes", self.scenes != run.scenes().name()),
+            ("trial", self.trial != run.trial),
+            ("settings", self.settings != settings),
+        ];
+        match contradicts.into_iter().find(|(_, contradicts)| *contradicts) {
+            Some((name, _)) => Err(format!("`{name}` contradicts the key `{}`", self.key)),
+            None => Ok(()),
+        }
+    }
+}
+
 /// The fields of a line that are counted.
 #[derive(Debug, Deserialize)]
 struct Counted {
     run: String,
     key: String,
+    scenes: String,
+    trial: u64,
+    settings: BTreeMap<String, String>,
     passed: bool,
     #[serde(default)]
     passed_but_for_tips: bool,
+    /// A line of an older program, and one without a result, has none.
+    violations: Option<Vec<IgnoredAny>>,
     outcome: Ending,
     #[serde(flatten)]
     figures: Value,
@@ -108,14 +144,18 @@ struct Counted {
 /// The key and the figures of a run, read from its line.
 ///
 /// # Errors
-/// If it is not the line of a run, or if its two names of the run do not belong together.
-pub fn read_line(line: &str) -> serde_json::Result<(String, Figures)> {
-    let Counted { run, key, passed, passed_but_for_tips, outcome, figures } = serde_json::from_str(line)?;
+/// If it is not the line of a run, or if two of its fields contradict each other.
+pub fn read_line(line: &str) -> serde_json::Result<ReadLine> {
+    let Counted { run, key, scenes, trial, settings, passed, passed_but_for_tips, violations, outcome, figures } =
+        serde_json::from_str(line)?;
     if run != run_name(&key) {
         return Err(serde_json::Error::custom(format!("`run` is `{run}`, which is not that of the key `{key}`")));
     }
+    if violations.is_some_and(|violations| violations.is_empty() != passed) {
+        return Err(serde_json::Error::custom(format!("`passed` is {passed}, which contradicts `violations`")));
+    }
     let of_run = Figures::of(outcome, |metric| figure_in(&figures, metric));
-    Ok((key, Figures { passed, passed_but_for_tips, ..of_run }))
+    Ok(ReadLine { key, figures: Figures { passed, passed_but_for_tips, ..of_run }, scenes, trial, settings })
 }
 
 /// The calibration of a run, read from its line.

@@ -7,7 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::header::Header;
-use super::line::read_line;
+use super::line::{ReadLine, read_line};
 use super::lines::Lines;
 use super::results::{self, Indices, ResultsError, check_path};
 use super::shard::Shard;
@@ -71,8 +71,9 @@ pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merge
         let mut start = lines.whole();
         while let Some((number, line)) = lines.next()? {
             let wrong = |cause| ResultsError::Line { path: path.clone(), line: number, cause };
-            let (key, figures) = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
-            let index = indices.get(&key).ok_or_else(|| wrong(format!("there is no run `{key}` in the sweep")))?;
+            let line = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
+            let index = indices.run_of(&line).map_err(wrong)?.index;
+            let ReadLine { key, figures, .. } = line;
             let end = lines.whole();
             let place = Place { file: number_of_file, start, length: usize::try_from(end - start).unwrap_or_default() };
             start = end;

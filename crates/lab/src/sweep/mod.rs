@@ -18,7 +18,7 @@ mod summary;
 
 pub use definition::Sweep;
 pub use header::Header;
-pub use line::{SweepLine, read_calibration, read_line};
+pub use line::{ReadLine, SweepLine, read_calibration, read_line};
 pub use merge::{Missing, merge};
 pub use plan::{Plan, PlanError};
 pub use results::{Results, ResultsError};

@@ -5,22 +5,23 @@ use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 use serde::de::DeserializeOwned;
 
 use super::header::Header;
-use super::line::read_line;
+use super::line::{ReadLine, read_line};
 use super::lines::{LINE_LIMIT, Lines};
 use super::shard::run_hash;
 use crate::results::{Ending, Figures, Provenance};
-use crate::sweep::Sweep;
+use crate::sweep::{Sweep, SweepRun};
 use vibrissa_text::file;
 
 /// The error of a file of results.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
     /// The file cannot be read or written.
-    #[error("cannot use {}: {cause}", path.display())]
+    #[error("cannot use {}: {words}", path.display(), words = in_words(cause))]
     File {
         /// The file.
         path: PathBuf,
@@ -102,13 +103,22 @@ impl<'s> Indices<'s> {
         Self { sweep, by_hash }
     }
 
-    /// The index of the run with this key. `None` if the sweep has none.
-    pub(super) fn get(&self, key: &str) -> Option<u64> {
+    /// The run with this key. `None` if the sweep has none.
+    pub(super) fn get(&self, key: &str) -> Option<SweepRun<'s>> {
         let hash = run_hash(key);
         let from = self.by_hash.partition_point(|&(before, _)| before < hash);
         let same = self.by_hash.get(from..)?.iter().take_while(|&&(found, _)| found == hash);
-        let mut same = same.map(|&(_, index)| index);
-        same.find(|&index| self.sweep.run(index).is_some_and(|run| run.key() == key))
+        let mut same = same.filter_map(|&(_, index)| self.sweep.run(index));
+        same.find(|run| run.key() == key)
+    }
+
+    /// The run of a line of results.
+    ///
+    /// # Errors
+    /// If the sweep has no run with its key, or if the line contradicts that.
+    pub(super) fn run_of(&self, line: &ReadLine) -> Result<SweepRun<'s>, String> {
+        let run = self.get(&line.key).ok_or_else(|| format!("there is no run `{}` in the sweep", line.key))?;
+        line.check(&run).map(|()| run)
     }
 }
 
@@ -121,7 +131,7 @@ pub struct Results {
 
 impl Results {
     /// Opens or creates the file of results at `path`, and returns the figures of its runs by index, without those that
-    /// crashed. An incomplete last line is removed. No other process can write to the file until this is dropped.
+    /// have no result. An incomplete last line is removed. No other process can write to the file until this is dropped.
     ///
     /// # Errors
     /// [`ResultsError`] if the file cannot be used, or has other content than results of the part of `sweep` in
@@ -136,10 +146,13 @@ impl Results {
         let mut there = BTreeMap::new();
         let differs = |found: &Header| difference(found, header);
         let results = Self::open_with(path, header, provenance, differs, |line| {
-            let (key, figures) = read_line(line).map_err(|cause| cause.to_string())?;
-            let index = indices.get(&key).filter(|_| header.shard.has(&key));
-            let index = index.ok_or_else(|| format!("this part of the sweep has no run `{key}`"))?;
-            let before = there.insert(index, figures);
+            let line = read_line(line).map_err(|cause| cause.to_string())?;
+            let run = indices.run_of(&line)?;
+            let ReadLine { key, figures, .. } = line;
+            if !header.shard.has(&key) {
+                return Err(format!("this part of the sweep has no run `{key}`"));
+            }
+            let before = there.insert(run.index, figures);
             if is_settled(before.as_ref()) { Err(format!("the run `{key}` occurs a second time")) } else { Ok(()) }
         })?;
         there.retain(|_, figures| is_settled(Some(figures)));
@@ -198,10 +211,10 @@ impl Results {
     }
 }
 
-/// True if a run with these figures is not repeated. What made a process crash, such as a lack of memory, may be over. So a run that
-/// crashed is repeated when its sweep is resumed, and its later line replaces the one of the crash.
+/// True if a run with these figures is not repeated. What made a process crash or prevented a run, such as a lack of memory, may be over.
+/// So a run without a result is repeated when its sweep is resumed, and its later line replaces the earlier one.
 pub(super) fn is_settled(figures: Option<&Figures>) -> bool {
-    figures.is_some_and(|figures| figures.ending != Ending::Crashed)
+    figures.is_some_and(|figures| !matches!(figures.ending, Ending::Crashed | Ending::Refused))
 }
 
 /// Checks that results with this `header` may replace the file at `path`: there is none, or it has results of the same

@@ -6,10 +6,10 @@ use std::path::Path;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::Sweep;
 use super::header::Header;
 use super::lines::Lines;
 use super::results::{Indices, ResultsError};
-use super::{Sweep, SweepRun};
 use crate::results::{Ending, LargestError, figure_in};
 use vibrissa_declare::figures::Metric;
 use vibrissa_text::file;
@@ -60,8 +60,7 @@ pub fn run_rows(sweep: &Sweep, path: &Path, most: usize) -> Result<Vec<Vec<RunRo
     while let Some((line, text)) = lines.next()? {
         let wrong = |cause: String| ResultsError::Line { path: path.to_owned(), line, cause };
         let row: RunRow = serde_json::from_str(&text).map_err(|cause| wrong(cause.to_string()))?;
-        let run: Option<SweepRun<'_>> = indices.get(&row.key).and_then(|index| sweep.run(index));
-        let run = run.ok_or_else(|| wrong(format!("there is no run `{}` in the sweep", row.key)))?;
+        let run = indices.get(&row.key).ok_or_else(|| wrong(format!("there is no run `{}` in the sweep", row.key)))?;
         let rows = groups.entry(run.group()).or_default();
         rows.insert(row.trial, row);
         if rows.len() > most {

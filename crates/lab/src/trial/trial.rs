@@ -14,7 +14,9 @@ use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 
 use super::worlds::{ExecuteError, build_world, engine_hash};
-use crate::results::{CalibrationIdentity, Ending, Hashes, Identity, MismatchIdentity, RunResult, policy_label, unmet};
+use crate::results::{
+    CalibrationIdentity, Ending, Hashes, Identity, MismatchIdentity, ObjectFriction, RunResult, policy_label, unmet,
+};
 use crate::run::{Progress, Run, SteppedRun, Stopwatch, Trace, Watcher, drive};
 use crate::score::Score;
 use vibrissa_world::scene::{Scene, Violation, WorldSetup};
@@ -224,6 +226,14 @@ impl Trial {
         CalibrationIdentity::of(&self.scene, |text| short_hash(&Sha256::digest(text)))
     }
 
+    /// The friction of the objects, if there is any.
+    fn friction(&self) -> Option<ObjectFriction> {
+        let coefficient = self.scene.physics.friction;
+        let Rig { whiskers, sensing, .. } = &self.assumed_rig;
+        let is_assumed = whiskers.iter().all(|whisker| whisker.friction(sensing) >= 0.5 * coefficient);
+        (coefficient > 0.0).then_some(ObjectFriction { coefficient, is_assumed })
+    }
+
     /// The names and hashes that identify the trial.
     pub fn identity(&self) -> Identity {
         Identity {
@@ -234,6 +244,7 @@ impl Trial {
             seed: self.seed,
             mismatch: self.scene.mismatch.as_ref().map(MismatchIdentity::from),
             calibration: self.calibration(),
+            friction: self.friction(),
             hash: Hashes {
                 scenario: self.inputs.scenario_hash.clone(),
                 policy: self.inputs.policy_hash.clone(),

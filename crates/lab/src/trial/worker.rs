@@ -3,6 +3,7 @@
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
 use std::thread::JoinHandle;
+use vibrissa_text::system::in_words;
 
 /// Number of the last lines on standard error that are reported as the reason of a crash.
 const LAST_LINES: usize = 3;
@@ -26,7 +27,7 @@ pub struct Worker {
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
     /// Its process cannot be started.
-    #[error("a worker process cannot be started: {0}")]
+    #[error("a worker process cannot be started: {words}", words = in_words(.0))]
     Process(#[from] io::Error),
     /// Its process ended, for this reason.
     #[error("a worker process ended before its first run: {0}")]
@@ -84,7 +85,7 @@ impl Worker {
     /// Waits for the process after the end of its output, and returns the reason of its end.
     fn end(&mut self) -> String {
         self.requests = None;
-        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let status = self.child.wait().map_or_else(|error| in_words(&error), |status| status.to_string());
         let errors = self.errors.take().and_then(|errors| errors.join().ok()).unwrap_or_default();
         if errors.is_empty() { status } else { format!("{status}: {}", errors.join(" | ")) }
     }

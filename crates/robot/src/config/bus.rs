@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use super::quantity;
+use super::{quantity, whole_number};
 
 /// An I²C bus.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,6 +26,7 @@ pub struct BoardConfig {
     /// Name of the whisker in the rig.
     pub whisker: String,
     /// Address on the bus (7 bit).
+    #[serde(deserialize_with = "whole_number::address")]
     pub address: u8,
     /// Field at the sensor per base moment (T/(N m), or µT per µN m). It is negative if the board is turned around.
     #[serde(default = "array_magnet")]

@@ -1,11 +1,13 @@
 //! Checks of several values of a configuration.
 
+use std::path::{Path, PathBuf};
+
 use vibrissa_runtime::calibration::Calibration;
 use vibrissa_runtime::signal::MAX_WHISKERS;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_yaml::{Node, Placed};
 
-use super::{ActuatorConfig, Config, ConfigError, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS, PoseSource, device};
+use super::{ActuatorConfig, Config, ConfigError, MAX_BOARDS, MAX_BUSES, MAX_ROUNDS, MqttConfig, PoseSource, device};
 use crate::array::Transducer;
 use crate::sensor::{Section, Sensor};
 
@@ -66,10 +68,12 @@ pub(super) fn check(config: &Config) -> Result<(), Inconsistency> {
             ),
         );
     }
-    let needs_broker =
-        matches!(config.actuator, ActuatorConfig::Mqtt { .. }) || matches!(config.pose.source, PoseSource::Mqtt { .. });
-    if needs_broker && config.mqtt.is_none() {
-        return fault("actuator", "the actuator or the pose uses MQTT; add `mqtt: {host: ...}`");
+    let by_broker = [
+        ("actuator", matches!(config.actuator, ActuatorConfig::Mqtt { .. })),
+        ("pose", matches!(config.pose.source, PoseSource::Mqtt { .. })),
+    ];
+    if let Some((section, _)) = by_broker.into_iter().find(|(_, uses)| *uses && config.mqtt.is_none()) {
+        return fault(section, format!("`{section}` uses MQTT; add `mqtt: {{host: ...}}`"));
     }
     config.sensor.model(sensing.sample_rate).map(|_| ()).or_else(|error| fault("sensor", error.to_string()))
 }
@@ -110,7 +114,7 @@ fn boards(config: &Config) -> Result<(), Inconsistency> {
 pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
     for (index, bus) in config.buses.iter().enumerate() {
         let (device, path) = (bus.device.display(), format!("buses.{index}.device"));
-        if bus.device.as_os_str().is_empty() {
+        if is_blank(&bus.device) {
             return fault(path, "`device` is empty; give the device file of the bus, such as `/dev/i2c-1`");
         }
         if let Some(other) = config.buses.iter().take(index).find(|other| device::are_one(&other.device, &bus.device)) {
@@ -127,14 +131,68 @@ pub(super) fn text(config: &Config) -> Result<(), Inconsistency> {
             }
         }
     }
-    if config.mqtt.as_ref().is_some_and(|mqtt| mqtt.host.trim().is_empty()) {
-        return fault("mqtt.host", "`host` is empty; give the name or the address of the broker, such as `127.0.0.1`");
+    sockets(config)?;
+    if let Some(mqtt) = &config.mqtt {
+        broker(mqtt)?;
     }
-    if config.record.as_ref().is_some_and(|record| record.directory.as_os_str().is_empty()) {
+    if config.record.as_ref().is_some_and(|record| is_blank(&record.directory)) {
         return fault("record.directory", "`directory` is empty; give a directory, such as `/var/lib/vibrissa`");
     }
     check(config)?;
     magnets(config)
+}
+
+/// True for a path without a name.
+fn is_blank(path: &Path) -> bool {
+    path.as_os_str().to_string_lossy().trim().is_empty()
+}
+
+/// Checks the addresses of packets.
+fn sockets(config: &Config) -> Result<(), Inconsistency> {
+    if let ActuatorConfig::Udp { address, .. } = &config.actuator {
+        if address.port() == 0 {
+            return fault("actuator.udp.address", format!("`address` has the port 0, {PORT_ZERO}"));
+        }
+        if address.ip().is_unspecified() {
+            let ip = address.ip();
+            return fault(
+                "actuator.udp.address",
+                format!("`address` is {ip}, which names no computer; write the address of the actuator"),
+            );
+        }
+    }
+    if let PoseSource::Udp { listen, .. } = &config.pose.source
+        && listen.port() == 0
+    {
+        return fault("pose.udp.listen", format!("`listen` has the port 0, {PORT_ZERO}"));
+    }
+    Ok(())
+}
+
+const PORT_ZERO: &str = "which no packet can have; write the port of the other program, from 1 to 65535";
+
+/// Checks the access to a broker.
+fn broker(mqtt: &MqttConfig) -> Result<(), Inconsistency> {
+    if mqtt.host.trim().is_empty() {
+        return fault("mqtt.host", "`host` is empty; give the name or the address of the broker, such as `127.0.0.1`");
+    }
+    let is_empty = |path: &Option<PathBuf>| path.as_ref().is_some_and(|path| is_blank(path));
+    if is_empty(&mqtt.password_file) {
+        return fault("mqtt.password_file", "`password_file` is empty; give the path of the file with the password");
+    }
+    if mqtt.user.is_some() && mqtt.password_file.is_none() {
+        return fault(
+            "mqtt.user",
+            "`mqtt` has a `user` and no `password_file`; give the path of the file with the password, or leave out `user`",
+        );
+    }
+    if mqtt.tls.as_ref().is_some_and(|tls| is_empty(&tls.ca)) {
+        return fault(
+            "mqtt.tls.ca",
+            "`ca` is empty; give a file with certificates, or write `tls: {}` for the authorities of the system",
+        );
+    }
+    Ok(())
 }
 
 /// Least change of a reading (counts) between a whisker at rest and one at the limit of its base angle. A whisker with a

@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::quantity;
 use super::sender::Sender;
@@ -37,19 +37,15 @@ fn yes() -> bool {
 
 /// The source of the platform's pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "PoseSection", into = "PoseSection")]
 pub struct PoseConfig {
     /// The sender.
-    #[serde(flatten)]
     pub source: PoseSource,
     /// Age of a pose when it arrives (s).
-    #[serde(default, with = "quantity::time")]
     pub latency: f64,
     /// Largest difference between two positions of a platform at rest (m).
-    #[serde(default = "pose_noise", with = "quantity::length")]
     pub noise: f64,
     /// Largest difference between two of its headings (rad).
-    #[serde(default = "heading_noise", with = "quantity::angle")]
     pub heading_noise: f64,
 }
 
@@ -70,19 +66,85 @@ fn heading_noise() -> f64 {
 }
 
 /// The sender of poses.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PoseSource {
     /// Packets to this address of the robot.
     Udp {
         /// Address on which the program listens.
         listen: SocketAddr,
         /// The sender whose packets are taken. Without it, every packet is.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         from: Option<Sender>,
     },
     /// Packets as messages with the topic `vibrissa/NAME/pose`.
     Mqtt {},
+}
+
+/// The section as it is written. The keys of its sources are in one list with the others, so that each has its place in the text.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PoseSection {
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
+    udp: Option<UdpPoses>,
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
+    mqtt: Option<MqttPoses>,
+    #[serde(default, with = "quantity::time")]
+    latency: f64,
+    #[serde(default = "pose_noise", with = "quantity::length")]
+    noise: f64,
+    #[serde(default = "heading_noise", with = "quantity::angle")]
+    heading_noise: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UdpPoses {
+    listen: SocketAddr,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    from: Option<Sender>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MqttPoses {}
+
+/// Reads a key that is there. Without content it is not the same as a key that is missing.
+fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
+}
+
+/// A section without exactly one source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+enum PoseSectionError {
+    #[error("has no source of poses; add `udp: {{listen: \"127.0.0.1:9751\"}}` or `mqtt: {{}}`")]
+    None,
+    #[error("has two sources of poses; keep either `udp` or `mqtt`")]
+    Two,
+}
+
+impl TryFrom<PoseSection> for PoseConfig {
+    type Error = PoseSectionError;
+
+    fn try_from(section: PoseSection) -> Result<Self, PoseSectionError> {
+        let PoseSection { udp, mqtt, latency, noise, heading_noise } = section;
+        let source = match (udp, mqtt) {
+            (Some(UdpPoses { listen, from }), None) => PoseSource::Udp { listen, from },
+            (None, Some(MqttPoses {})) => PoseSource::Mqtt {},
+            (None, None) => return Err(PoseSectionError::None),
+            (Some(_), Some(_)) => return Err(PoseSectionError::Two),
+        };
+        Ok(Self { source, latency, noise, heading_noise })
+    }
+}
+
+impl From<PoseConfig> for PoseSection {
+    fn from(config: PoseConfig) -> Self {
+        let PoseConfig { source, latency, noise, heading_noise } = config;
+        let (udp, mqtt) = match source {
+            PoseSource::Udp { listen, from } => (Some(UdpPoses { listen, from }), None),
+            PoseSource::Mqtt {} => (None, Some(MqttPoses {})),
+        };
+        Self { udp, mqtt, latency, noise, heading_noise }
+    }
 }
 
 /// The recording on the device.

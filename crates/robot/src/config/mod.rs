@@ -13,6 +13,7 @@ mod safety;
 mod sender;
 #[cfg(test)]
 mod tests;
+pub(crate) mod whole_number;
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
@@ -193,7 +194,7 @@ impl Config {
             mqtt: file.mqtt,
             record: file.record,
         };
-        let checked = range::check(&config).and_then(|()| check::text(&config));
+        let checked = range::check(&config, &tree).and_then(|()| check::text(&config));
         checked.map_err(|inconsistency| inconsistency.at(&source, &tree))?;
         let platform = &mut config.rig.platform;
         platform.speed_limit = platform.speed_limit.min(config.limits.speed);

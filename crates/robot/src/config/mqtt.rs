@@ -88,7 +88,7 @@ impl TryFrom<Section> for MqttConfig {
         }
         match &user {
             None if password_file.is_some() => return Err(SectionError::NoUser),
-            Some(user) if user.is_empty() => return Err(SectionError::EmptyUser),
+            Some(user) if user.trim().is_empty() => return Err(SectionError::EmptyUser),
             _ => {}
         }
         let port = port.unwrap_or(Self::PORTS[usize::from(tls.is_some())]);

@@ -1,6 +1,7 @@
 //! The ranges of all numbers of a configuration but for those of the rig, whose reader checks them.
 
 use vibrissa_runtime::units::{Dimension, Key, format_si};
+use vibrissa_yaml::{Node, Placed, number_text, written};
 
 use super::check::Inconsistency;
 use super::{BoardConfig, BusConfig, Config, Limits, PoseConfig, Timeouts};
@@ -27,16 +28,19 @@ const PORT: Key = Key::new("port", Dimension::NUMBER, (1.0, 65_535.0), "1883");
 /// A number of a configuration: its path in the text, its value (SI) and its key.
 type Number = (String, f64, Key);
 
-/// Returns an error for the first number beyond the range of its key.
-pub(super) fn check(config: &Config) -> Result<(), Inconsistency> {
+/// Returns an error for the first number beyond the range of its key, with the number as `tree` has it.
+pub(super) fn check(config: &Config, tree: &Placed<Node>) -> Result<(), Inconsistency> {
     let outside = numbers(config).into_iter().find(|(_, value, key)| !key.contains(*value));
     if let Some((path, value, key)) = outside {
         let Key { name, dimension, example, .. } = key;
-        let (written, range) = (format_si(value, dimension), key.range_text());
-        return Err(Inconsistency {
-            path,
-            message: format!("`{name}` cannot be {written}; it must be {range}, for example `{name}: {example}`"),
-        });
+        let found = match &tree.find(&path).value {
+            // Only a default is not in the text.
+            Node::Null | Node::List(_) | Node::Mapping(_) => format_si(value, dimension),
+            scalar => written(scalar),
+        };
+        let range = key.range_text();
+        let message = format!("`{name}` cannot be {found}; it must be {range}, for example `{name}: {example}`");
+        return Err(Inconsistency { path, message });
     }
     config.buses.iter().enumerate().try_for_each(|(bus, entry)| {
         entry.boards.iter().enumerate().try_for_each(|(board, entry)| field_per_moment(bus, board, entry))
@@ -50,8 +54,9 @@ fn field_per_moment(bus: usize, board: usize, entry: &BoardConfig) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "`field_per_moment` cannot be {found}; it must be from {least} to {greatest} T/(N m), or as much below 0 if the board \
+        "`field_per_moment` cannot be {}; it must be from {least} to {greatest} T/(N m), or as much below 0 if the board \
          is turned around. The baseline's array has {}",
+        number_text(found),
         FIELD_PER_MOMENT.example
     );
     Err(Inconsistency { path: format!("buses.{bus}.boards.{board}.field_per_moment"), message })

@@ -22,8 +22,8 @@ fn refusal(text: &str) -> (u64, String) {
 }
 
 /// Words of the YAML library and of the Rust language, and the other kind of file.
-const FOREIGN: [&str; 10] =
-    ["u8", "u64", "f64", "Option", "String", "Policy", "Spanned", "struct", "deserialize", "scenario"];
+const FOREIGN: [&str; 11] =
+    ["u8", "u64", "f64", "flattened", "Option", "String", "Policy", "Spanned", "struct", "deserialize", "scenario"];
 
 fn expect(from: &str, to: &str, words: &str) {
     let (text, line) = changed(from, to);
@@ -38,7 +38,7 @@ fn expect(from: &str, to: &str, words: &str) {
 #[test]
 fn every_number_has_a_range_and_the_message_has_its_line() {
     for (from, to, words) in [
-        ("speed: 0.1 m/s", "speed: -0.1 m/s", "`speed` cannot be -100 mm/s; it must be from 1 mm/s to 100 m/s"),
+        ("speed: 0.1 m/s", "speed: -0.1 m/s", "`speed` cannot be -0.1 m/s; it must be from 1 mm/s to 100 m/s"),
         ("speed: 0.1 m/s", "speed: 0 m/s", "from 1 mm/s to 100 m/s"),
         ("speed: 0.1 m/s", "speed: 1e300 m/s", "from 1 mm/s to 100 m/s"),
         ("yaw_rate: 60 deg/s", "yaw_rate: -60 deg/s", "`yaw_rate` cannot be"),
@@ -63,10 +63,13 @@ fn every_number_has_a_range_and_the_message_has_its_line() {
         ("filter_cutoff: 20 Hz", "filter_cutoff: 0 Hz", "`filter_cutoff` cannot be"),
         ("filter_cutoff: 20 Hz", "filter_cutoff: 200 Hz", "below half of the sample rate"),
         ("angle_noise: 0.5 urad", "angle_noise: -0.5 urad", "`angle_noise` cannot be"),
-        ("gain: 7", "gain: 8", "`gain` cannot be 8; it must be from 0 to 7"),
-        ("resolution: 0", "resolution: 9", "`resolution` cannot be 9; it must be from 0 to 3"),
-        ("oversampling: 2", "oversampling: 300", "`oversampling`: must be a whole number from 0 to 255"),
-        ("filter: 3", "filter: -1", "`filter`: must be a whole number from 0 to 255"),
+        ("base_angle: 1050 urad", "base_angle: 1e9 deg", "`base_angle` cannot be 1e9 deg; it must be"),
+        ("gain: 7", "gain: 8", "`gain`: must be a whole number from 0 to 7, found `8`"),
+        ("gain: 7", "gain: 300", "`gain`: must be a whole number from 0 to 7, found `300`"),
+        ("gain: 7", "gain: high", "`gain`: must be a whole number from 0 to 7, found `high`"),
+        ("resolution: 0", "resolution: 9", "`resolution`: must be a whole number from 0 to 3, found `9`"),
+        ("oversampling: 2", "oversampling: 300", "`oversampling`: must be a whole number from 0 to 3, found `300`"),
+        ("filter: 3", "filter: -1", "`filter`: must be a whole number from 0 to 7, found `-1`"),
         ("limit_mb: 1000", "limit_mb: 0", "`limit_mb` cannot be 0"),
         ("limit_mb: 1000", "limit_mb: -1", "`limit_mb`: must be a whole number"),
     ] {
@@ -106,6 +109,60 @@ fn a_gain_that_makes_a_whisker_blind_is_refused() {
 }
 
 #[test]
+fn a_very_small_number_is_told_without_its_zeros() {
+    let board = "{whisker: r0, address: 0x0C}";
+    let with = |value| format!("{{whisker: r0, address: 0x0C, field_per_moment: {value}}}");
+    expect(board, &with("1e-300"), "cannot be 1e-300;");
+    expect("speed: 0.1 m/s", "speed: 1e-300", "`1e-300` is not a speed");
+    expect("gain: 7", "gain: 1e-300", "found `1e-300`");
+}
+
+#[test]
+fn the_keys_of_a_pose_have_their_places_and_the_messages_their_names() {
+    let sender = "udp: {listen: \"127.0.0.1:9751\"}, ";
+    for (from, to, words) in [
+        ("latency: 0 ms", "latncy: 0 ms", "there is no key `latncy`; did you mean `latency`?"),
+        ("latency: 0 ms", "timeout: 9 ms", "there is no key `timeout`; the keys are `udp`, `mqtt`, `latency`"),
+        ("latency: 0 ms", "latency: 3 kg", "`latency`: `3 kg` is not a time"),
+        ("listen: \"127.0.0.1:9751\"", "listn: \"127.0.0.1:9751\"", "there is no key `listn`; did you mean `listen`?"),
+        ("listen: \"127.0.0.1:9751\"", "listen: here", "`listen`: must be an IP address with a port"),
+        (sender, "", "`pose`: has no source of poses; add `udp:"),
+        (sender, "serial: {}, ", "there is no key `serial`; the keys are `udp`, `mqtt`"),
+        (sender, &format!("{sender}mqtt: {{}}, "), "`pose`: has two sources of poses; keep either"),
+        (sender, "udp: , ", "`udp`: the key `listen` is missing"),
+        (sender, "mqtt: , ", "`pose` uses MQTT; add `mqtt: {host: ...}`"),
+        (sender, "mqtt: {topic: pose}, ", "there is no key `topic`"),
+    ] {
+        expect(from, to, words);
+    }
+    // A key on its own line has that line.
+    let (text, line) = changed("pose: {", "pose:\n  latncy: 3 ms\n  udp: {listen: \"127.0.0.1:9751\"}\nrest: {");
+    assert_eq!(refusal(&text).0, line + 1);
+}
+
+#[test]
+fn access_to_links_is_checked_before_the_start() {
+    for (from, to, words) in [
+        ("127.0.0.1:9750", "127.0.0.1:0", "`address` has the port 0"),
+        ("127.0.0.1:9750", "0.0.0.0:9750", "`address` is 0.0.0.0, which names no computer"),
+        ("127.0.0.1:9751", "127.0.0.1:0", "`listen` has the port 0"),
+    ] {
+        expect(from, to, words);
+    }
+    for (mqtt, words) in [
+        ("tls: {ca: \"\"}", "`ca` is empty"),
+        ("tls: {ca: \" \"}", "`ca` is empty"),
+        ("user: \" \", password_file: /p", "`user` of `mqtt` is empty"),
+        ("user: robot", "`mqtt` has a `user` and no `password_file`"),
+        ("user: robot, password_file: \"\"", "`password_file` is empty"),
+    ] {
+        let (line, message) = refusal(&format!("{ARRAY}mqtt: {{host: a, {mqtt}}}\n"));
+        assert_eq!(line, ARRAY.matches('\n').count() as u64 + 1);
+        assert!(message.contains(words), "{message}");
+    }
+}
+
+#[test]
 fn a_device_that_is_listed_twice_is_refused_whatever_its_path() {
     for device in ["/dev/i2c-1", "/dev/./i2c-1", "//dev/i2c-1", "/dev/../dev/i2c-1", "/dev/bus/../i2c-1"] {
         expect("device: /dev/i2c-3", &format!("device: {device}"), "are one bus");
@@ -123,13 +180,24 @@ fn a_device_that_is_listed_twice_is_refused_whatever_its_path() {
 #[test]
 fn messages_have_the_words_of_the_configuration() {
     for (from, to, words) in [
-        ("address: 0x0C", "address: 0C", "`address`: must be a whole number from 0 to 255, found `0C`"),
+        ("address: 0x0C", "address: 0C", "`address`: must be an address from 0x0C to 0x1B, found `0C`"),
         ("address: 0x0C", "address: 0x1C", "an MLX90393 has an address from 0x0C to 0x1B, not 0x1c"),
-        ("address: 0x0C", "address: 256", "`address`: must be a whole number from 0 to 255"),
+        ("address: 0x0C", "address: 256", "`address`: must be an address from 0x0C to 0x1B"),
         ("address: 0x0D", "address: 0x0C", "two boards on /dev/i2c-1 have the address 0x0c"),
         ("device: /dev/i2c-1", "device:", "`device`: must be a path, found nothing"),
         ("device: /dev/i2c-1", "device: \"\"", "`device` is empty"),
+        ("device: /dev/i2c-1", "device: \" \"", "`device` is empty"),
         ("device: /dev/i2c-1", "device: [a]", "found a list"),
+        ("gain: 7", "gain: 7.0", "`gain`: must be a whole number from 0 to 7, found `7.0`"),
+        ("gain: 7", "gain: \"7\"", "`gain`: must be a whole number from 0 to 7, found the text `7`"),
+        ("address: 0x0C", "address: \"0x0C\"", "found the text `0x0C`"),
+        ("{udp: {address: \"127.0.0.1:9750\"}}", "udp", "must be keys with values, found the word alone"),
+        (
+            "{udp: {address: \"127.0.0.1:9750\"}}",
+            "{}",
+            "must be exactly one of `dry_run` or `udp` or `mqtt`, found no key",
+        ),
+        ("{udp: {address: \"127.0.0.1:9750\"}}", "{udp: , mqtt: }", "found `udp` and `mqtt`"),
         ("127.0.0.1:9750", "robot.local", "must be an IP address with a port"),
         ("speed: 0.1 m/s", "speed: 0.1", "`speed`: `0.1` is not a speed"),
         ("speed: 0.1 m/s", "speed: 0.1 kg", "`speed`: `0.1 kg` is not a speed"),

@@ -57,14 +57,26 @@ impl Injection {
         Err(("part", format!("`part` cannot be {part}; it is the index of a {what} of this robot, from 0 to {last}")))
     }
 
+    /// The time in which the fault can be noticed (ns), from its beginning.
+    fn noticeable(&self, begun_ns: u64) -> (u64, u64) {
+        let from_ns = begun_ns.saturating_add(self.at_ms.saturating_mul(1_000_000));
+        (from_ns, from_ns.saturating_add(self.for_ms.saturating_mul(1_000_000)).saturating_add(LATE_NS))
+    }
+
+    /// True if something that happened at `time_ns` may be the effect of this fault. The machine has begun at `begun_ns`.
+    #[must_use]
+    pub fn may_cause(&self, time_ns: u64, begun_ns: u64) -> bool {
+        let (from_ns, until_ns) = self.noticeable(begun_ns);
+        (from_ns..=until_ns).contains(&time_ns)
+    }
+
     /// True if the supervisor has noticed this fault. The machine has begun at `begun_ns`, and `events` has all changes of
     /// faults.
     #[must_use]
     pub fn was_detected(&self, events: &[FaultEvent], begun_ns: u64) -> bool {
         let has_part = self.kind.concerns_a_whisker() || self.kind == InjectionKind::StuckBus;
         let part = if has_part { self.part } else { 0 };
-        let from_ns = begun_ns.saturating_add(self.at_ms.saturating_mul(1_000_000));
-        let until_ns = from_ns.saturating_add(self.for_ms.saturating_mul(1_000_000)).saturating_add(LATE_NS);
+        let (from_ns, until_ns) = self.noticeable(begun_ns);
         let mut present_since = None;
         // A fault that the robot must bear leaves nothing to detect.
         let Some(expected) = self.kind.expected() else { return true };
@@ -271,6 +283,8 @@ mod tests {
         assert!(is_detected(&[event(900, detected), event(1600, recovered)]), "it was present before");
         assert!(!is_detected(&[event(900, detected), event(1400, recovered)]));
         assert!(!is_detected(&[event(1900, detected)]));
+        let may_cause = |time_ms: u64| injection.may_cause(time_ms * 1_000_000, 500_000_000);
+        assert!(!may_cause(1499) && may_cause(1500) && may_cause(1700) && !may_cause(1801));
         let other = Injection { part: 1, kind: InjectionKind::StaleSensor, ..injection };
         assert!(!other.was_detected(&[event(1560, detected)], 500_000_000));
     }

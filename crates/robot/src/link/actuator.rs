@@ -1,6 +1,7 @@
 //! The receiver of commands.
 
 use vibrissa_runtime::signal::Command;
+use vibrissa_text::system::in_words;
 
 use super::command_packet::CommandPacket;
 
@@ -30,7 +31,7 @@ pub trait Actuator: Send {
 #[derive(Debug, thiserror::Error)]
 pub enum LinkError {
     /// The socket has refused it.
-    #[error("the command cannot be sent: {0}")]
+    #[error("the command cannot be sent: {words}", words = in_words(.0))]
     Io(#[from] std::io::Error),
     /// The client accepts no more messages.
     #[error("the command cannot be sent: the MQTT client accepts no message")]

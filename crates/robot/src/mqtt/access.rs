@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 use crate::config::MqttConfig;
 
@@ -33,7 +34,7 @@ pub(super) enum Authorities {
 #[derive(Debug, thiserror::Error)]
 pub enum AccessError {
     /// A file cannot be read.
-    #[error("cannot read {}, the `{key}` of `mqtt`: {source}", path.display())]
+    #[error("cannot read {}, the `{key}` of `mqtt`: {words}", path.display(), words = in_words(source))]
     Read {
         /// The key of the configuration.
         key: &'static str,

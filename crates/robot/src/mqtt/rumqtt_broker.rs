@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::task::{Wake, Waker};
 use std::time::{Duration, Instant};
+use vibrissa_text::system::in_words;
 
 use rumqttc::{
     AsyncClient, Broker as Address, ConnectReturnCode, ConnectionError, Event, EventLoop, Incoming, LastWill,
@@ -48,7 +49,7 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
     /// The system has no more files or threads.
-    #[error("the system starts no connection to the MQTT broker: {0}; end other programs")]
+    #[error("the system starts no connection to the MQTT broker: {words}; end other programs", words = in_words(.0))]
     System(#[from] std::io::Error),
     /// A file cannot be used.
     #[error(transparent)]
@@ -305,6 +306,7 @@ fn reason(error: &ConnectionError) -> String {
         ConnectionError::Tls(error) => {
             format!("{error}; check `tls` of `mqtt`, and that the certificate of the broker is for its `host`")
         }
+        ConnectionError::Io(error) => in_words(error),
         error => error.to_string(),
     }
 }

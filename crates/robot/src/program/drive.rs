@@ -9,6 +9,7 @@ use std::time::Duration;
 use clap::Args;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{ARTIFACT_LIMIT, Artifact};
+use vibrissa_text::system::in_words;
 
 use super::command_line::print_error;
 use super::event_log::EventLog;
@@ -157,7 +158,7 @@ fn ticks(seconds: u32, control_rate: f64) -> u64 {
 #[expect(clippy::disallowed_methods, reason = "the size is bounded below")]
 fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
     use std::io::Read;
-    let cannot = |error: std::io::Error| format!("cannot read {}: {error}", path.display());
+    let cannot = |error: std::io::Error| format!("cannot read {}: {}", path.display(), in_words(&error));
     let mut bytes = Vec::new();
     let file = fs::File::open(path).map_err(cannot)?;
     file.take(limit as u64 + 1).read_to_end(&mut bytes).map_err(cannot)?;

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Once};
 use std::thread::JoinHandle;
+use vibrissa_text::system::in_words;
 
 use rtrb::{Consumer, RingBuffer};
 use vibrissa_runtime::control::Control;
@@ -85,7 +86,7 @@ pub enum ThreadError {
     #[error("the machine has failed: {0}")]
     Machine(String),
     /// The system starts no thread.
-    #[error("the system starts no thread: {0}; end other programs")]
+    #[error("the system starts no thread: {words}; end other programs", words = in_words(.0))]
     Spawn(#[from] std::io::Error),
 }
 

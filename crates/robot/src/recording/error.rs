@@ -2,6 +2,7 @@
 
 use mcap::McapError;
 use vibrissa_runtime::control::BindError;
+use vibrissa_text::system::in_words;
 
 use super::setup::{FORMAT, SetupError};
 use crate::config::ConfigError;
@@ -10,7 +11,7 @@ use crate::config::ConfigError;
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// The disk does not take it.
-    #[error("{0}")]
+    #[error("{words}", words = in_words(.0))]
     Disk(#[from] std::io::Error),
     /// The MCAP library refuses it.
     #[error("{0}")]
@@ -45,7 +46,7 @@ impl From<McapError> for WriteError {
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be read.
-    #[error("it cannot be read: {0}")]
+    #[error("it cannot be read: {words}", words = in_words(.0))]
     Disk(#[from] std::io::Error),
     /// The file is no MCAP file.
     #[error("it is no MCAP file; give a recording of `vibrissa-robot` or of `vibrissa drive --record`")]

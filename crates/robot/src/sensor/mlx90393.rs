@@ -9,12 +9,12 @@ use vibrissa_mlx90393::{
 };
 #[cfg(feature = "emulation")]
 use vibrissa_mlx90393_emulator::{Emulated, EmulatedSensor, SensorFault, SensorOptions};
-use vibrissa_runtime::units::{Dimension, Key};
 
 #[cfg(feature = "emulation")]
 use super::EmulatedBoard;
 use super::{BusClock, RawRead, Refused, Section, Sensor, SensorDriver};
 use crate::array::{BoardReading, Bus, Port, ReadingState};
+use crate::config::whole_number;
 
 /// Bits of a status byte that give a sensor in burst mode two other modes, which is impossible.
 #[cfg(feature = "emulation")]
@@ -25,12 +25,16 @@ const TWO_MODES: u8 = 0x60;
 #[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// Oversampling ratio, OSR (0 to 3).
+    #[serde(deserialize_with = "whole_number::up_to::<3, _>")]
     pub oversampling: u8,
     /// Digital filter, `DIG_FILT` (0 to 7).
+    #[serde(deserialize_with = "whole_number::up_to::<7, _>")]
     pub filter: u8,
     /// Gain, `GAIN_SEL` (0 to 7). 7 is the most sensitive.
+    #[serde(deserialize_with = "whole_number::up_to::<7, _>")]
     pub gain: u8,
     /// Resolution of the Y axis, `RES_Y` (0 to 3). 0 is the finest.
+    #[serde(deserialize_with = "whole_number::up_to::<3, _>")]
     pub resolution: u8,
 }
 
@@ -50,17 +54,6 @@ pub struct Driver(vibrissa_mlx90393::Sensor);
 
 impl Section for Config {
     type Model = Model;
-
-    fn numbers(&self) -> Vec<(f64, Key)> {
-        let code = |name, greatest, example| Key::new(name, Dimension::NUMBER, (0.0, greatest), example);
-        let Self { oversampling, filter, gain, resolution } = *self;
-        vec![
-            (oversampling.into(), code("oversampling", 3.0, "2")),
-            (filter.into(), code("filter", 7.0, "3")),
-            (gain.into(), code("gain", 7.0, "7")),
-            (resolution.into(), code("resolution", 3.0, "0")),
-        ]
-    }
 
     fn first_address(&self) -> u8 {
         0x0C

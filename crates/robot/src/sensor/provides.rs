@@ -24,8 +24,10 @@ pub trait Section: Default {
     /// The sensor with checked settings.
     type Model: Sensor;
 
-    /// The numbers (SI) with their keys, whose ranges are checked.
-    fn numbers(&self) -> Vec<(f64, Key)>;
+    /// The numbers (SI) with their keys, whose ranges are checked. None if the reader of the section has checked them.
+    fn numbers(&self) -> Vec<(f64, Key)> {
+        Vec::new()
+    }
 
     /// Address of the first board on a bus. The addresses of the others follow.
     fn first_address(&self) -> u8;

@@ -12,6 +12,7 @@
 //! The stream ends there.
 
 use std::io::{self, ErrorKind, Read, Write};
+use vibrissa_text::system::in_words;
 
 use vibrissa_runtime::machine::ARTIFACT_LIMIT;
 
@@ -62,7 +63,7 @@ pub enum FrameError {
     #[error("the signature is not text; sign the machine with `minisign -Sm FILE`")]
     NotText,
     /// The stream cannot be read.
-    #[error("the push cannot be read: {0}; push the machine again")]
+    #[error("the push cannot be read: {words}; push the machine again", words = in_words(.0))]
     Read(#[source] io::Error),
 }
 

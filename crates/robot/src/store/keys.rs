@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 use minisign_verify::PublicKey;
 
@@ -30,7 +31,7 @@ pub enum KeysError {
         path: PathBuf,
     },
     /// The folder cannot be read.
-    #[error("cannot read the folder of public keys {}: {cause}; create it, or name another", path.display())]
+    #[error("cannot read the folder of public keys {}: {words}; create it, or name another", path.display(), words = in_words(cause))]
     Folder {
         /// The folder.
         path: PathBuf,
@@ -38,7 +39,7 @@ pub enum KeysError {
         cause: io::Error,
     },
     /// A file cannot be read.
-    #[error("cannot read the public key {}: {cause}; copy it again, or name another", path.display())]
+    #[error("cannot read the public key {}: {words}; copy it again, or name another", path.display(), words = in_words(cause))]
     Unreadable {
         /// The file.
         path: PathBuf,

@@ -4,6 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::io;
 use std::process::Command;
 use std::time::Duration;
+use vibrissa_text::system::in_words;
 
 use super::answer::Answer;
 use super::machine_hash::MachineHash;
@@ -35,7 +36,7 @@ pub struct PushCommand {
 #[derive(Debug, thiserror::Error)]
 pub enum PushError {
     /// The program cannot be started or watched.
-    #[error("cannot run {}: {cause}; install it, or name another program", program.display())]
+    #[error("cannot run {}: {words}; install it, or name another program", program.display(), words = in_words(cause))]
     Start {
         /// The program.
         program: OsString,

@@ -2,6 +2,7 @@
 
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use vibrissa_text::system::in_words;
 
 use vibrissa_runtime::machine::ARTIFACT_LIMIT;
 
@@ -24,7 +25,7 @@ pub struct SignedMachine {
 #[derive(Debug, thiserror::Error)]
 pub enum SignedMachineError {
     /// The file of the machine cannot be read.
-    #[error("cannot read {}: {cause}; give the file that `vibrissa compile` has written", path.display())]
+    #[error("cannot read {}: {words}; give the file that `vibrissa compile` has written", path.display(), words = in_words(cause))]
     Machine {
         /// The file.
         path: PathBuf,
@@ -40,7 +41,7 @@ pub enum SignedMachineError {
         signature: PathBuf,
     },
     /// The file of the signature cannot be read.
-    #[error("cannot read the signature {}: {cause}; sign the machine again with `minisign -Sm {}`", signature.display(), path.display())]
+    #[error("cannot read the signature {}: {words}; sign the machine again with `minisign -Sm {}`", signature.display(), path.display(), words = in_words(cause))]
     Signature {
         /// The file of the machine.
         path: PathBuf,

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::PathBuf;
+use vibrissa_text::system::in_words;
 
 use super::frame::FrameError;
 use super::machine_hash::MachineHash;
@@ -14,9 +15,8 @@ use super::verified_machine::Refusal;
 pub enum StoreError {
     /// The store cannot be opened.
     #[error(
-        "cannot open the store {}: {cause}; create this directory and give it to the user of this program, or name another",
-        path.display()
-    )]
+        "cannot open the store {}: {words}; create this directory and give it to the user of this program, or name another",
+        path.display(), words = in_words(cause))]
     Open {
         /// The store.
         path: PathBuf,
@@ -24,7 +24,7 @@ pub enum StoreError {
         cause: io::Error,
     },
     /// A file cannot be read.
-    #[error("cannot read {}: {cause}; make it a regular file that the user of this program can read", path.display())]
+    #[error("cannot read {}: {words}; make it a regular file that the user of this program can read", path.display(), words = in_words(cause))]
     Read {
         /// The file.
         path: PathBuf,
@@ -32,7 +32,7 @@ pub enum StoreError {
         cause: io::Error,
     },
     /// A file cannot be written.
-    #[error("cannot write {}: {cause}; check the owner of the store and the free space of the disk", path.display())]
+    #[error("cannot write {}: {words}; check the owner of the store and the free space of the disk", path.display(), words = in_words(cause))]
     Write {
         /// The file or folder.
         path: PathBuf,

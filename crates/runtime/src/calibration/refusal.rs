@@ -57,6 +57,19 @@ pub enum TouchRefusal {
         /// The same without any touch.
         untouched_mm: f64,
     },
+    /// No touches could say more than the tolerances of manufacture.
+    #[error(
+        "no touches determine the whisker: after {touches} of them, tips would still be uncertain by {tip_mm:.2} mm, and by \
+         {untouched_mm:.2} mm without any; its base angles are too small beside the noise, so use a shaft with a stiffer tip, or a softer hinge"
+    )]
+    Hopeless {
+        /// Number of touches.
+        touches: usize,
+        /// Standard deviation of tips (mm) after so many touches.
+        tip_mm: f64,
+        /// The same without any touch.
+        untouched_mm: f64,
+    },
     /// The whisker has no contact by which a fit could be judged.
     #[error(
         "the tip of the whisker of the rig can touch no surface as in contour following; check its length and direction"
@@ -86,7 +99,7 @@ const NO_RESPONSE: f64 = 0.1;
 /// Differences from the rig, in standard deviations of the tolerances, that a whisker may have.
 const TOLERATED: f64 = 3.0;
 /// Share of the uncertainty without any touch that touches must leave at most.
-const DETERMINED: f64 = 0.5;
+pub(super) const DETERMINED: f64 = 0.5;
 /// Standard deviations of the parameters for other explanations: play (rad), curvature (1/m), base (m).
 const PLAY: f64 = 2e-5;
 const CURVATURE: f64 = 5.0;

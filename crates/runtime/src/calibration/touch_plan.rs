@@ -6,6 +6,7 @@ use crate::mechanics::Obstacle;
 use crate::rig::Whisker;
 
 use super::parameters::{self, Parameter, ParameterCovariance, Parameters};
+use super::refusal::{DETERMINED, TouchRefusal};
 use super::touch_fit::{Predicted, TouchFit, TouchNoise};
 use super::workspace::Workspace;
 
@@ -25,6 +26,8 @@ pub struct PlannedTouch {
 #[derive(Debug, Clone)]
 pub struct TouchPlan {
     candidates: Vec<Candidate>,
+    /// Standard deviation of a reading relative to the air (rad).
+    deviation: f64,
     workspace: Workspace,
 }
 
@@ -34,7 +37,7 @@ struct Candidate {
     planned: PlannedTouch,
     /// Derivatives of the reading by the parameters. The offset is known from the air.
     slope: Parameters,
-    /// Variance of the reading (rad²), apart from that of the parameters.
+    /// Variance of the reading (rad²) that is due to the pose.
     variance: f64,
 }
 
@@ -61,12 +64,8 @@ impl TouchPlan {
         let places =
             SHARES.iter().map(|share| share * length).chain(BEYOND.iter().map(|share| length + share * radius));
         let touches = places.flat_map(|along| [(along, -1.0), (along, 1.0)]);
-        let mut candidates: Vec<_> =
-            touches.flat_map(|(along, side)| touches_at(whisker, along, side, radius, noise)).collect();
-        for candidate in &mut candidates {
-            candidate.variance += math::square(deviation);
-        }
-        Self { candidates, workspace: Workspace::new(whisker, &Parameters::zeros()) }
+        let candidates = touches.flat_map(|(along, side)| touches_at(whisker, along, side, radius, noise)).collect();
+        Self { candidates, deviation, workspace: Workspace::new(whisker, &Parameters::zeros()) }
     }
 
     /// Chooses the touch after which the standard deviation of tips is smallest (A-optimal for tips). Touches like the
@@ -76,9 +75,37 @@ impl TouchPlan {
         let possible =
             self.candidates.iter().filter(|candidate| !missed.iter().any(|missed| candidate.planned.is_beyond(missed)));
         let rated = possible.map(|candidate| {
-            (self.workspace.deviation(&candidate.covariance_after(&fit.covariance)), candidate.planned)
+            (self.workspace.deviation(&candidate.covariance_after(&fit.covariance, self.deviation)), candidate.planned)
         });
         rated.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, planned)| planned)
+    }
+
+    /// Checks that so many `touches` of the `whisker`, each the best one after those before it, can say more about tips than the
+    /// tolerances of manufacture. `deviation` (rad) is the least standard deviation of a reading relative to the air.
+    ///
+    /// # Errors
+    /// [`TouchRefusal::Hopeless`] if they cannot.
+    pub fn check(&self, whisker: &Whisker, touches: usize, deviation: f64) -> Result<(), TouchRefusal> {
+        let mut fit = TouchFit::untouched(whisker);
+        let untouched = self.tip_deviation(&fit);
+        let mut least = untouched;
+        // The readings in the air tell the offset.
+        let offset = Parameter::Offset.index();
+        fit.covariance[(offset, offset)] = 0.0;
+        for _ in 0..touches {
+            let after = self.candidates.iter().map(|candidate| candidate.covariance_after(&fit.covariance, deviation));
+            let rated = after.map(|covariance| (self.workspace.deviation(&covariance), covariance));
+            let Some((deviation, covariance)) = rated.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { break };
+            (least, fit.covariance) = (deviation, covariance);
+            if least < DETERMINED * untouched {
+                break;
+            }
+        }
+        // Without a contact or a possible touch, the touches themselves tell the reason.
+        if self.candidates.is_empty() || untouched.is_infinite() || least < DETERMINED * untouched {
+            return Ok(());
+        }
+        Err(TouchRefusal::Hopeless { touches, tip_mm: 1e3 * least, untouched_mm: 1e3 * untouched })
     }
 
     /// Standard deviation of tips (m, along the normal of the surface) that the errors of the parameters cause: the root
@@ -98,10 +125,10 @@ impl PlannedTouch {
 }
 
 impl Candidate {
-    /// The covariance of the parameters after the touch.
-    fn covariance_after(&self, before: &ParameterCovariance) -> ParameterCovariance {
+    /// The covariance of the parameters after the touch, whose reading has a standard `deviation` (rad) relative to the air.
+    fn covariance_after(&self, before: &ParameterCovariance, deviation: f64) -> ParameterCovariance {
         let gain = before * self.slope;
-        before - gain * gain.transpose() / (self.variance + self.slope.dot(&gain))
+        before - gain * gain.transpose() / (self.variance + math::square(deviation) + self.slope.dot(&gain))
     }
 }
 

@@ -367,3 +367,21 @@ fn an_edge_and_a_face_of_a_block_calibrate_a_whisker() {
     assert!(deviation < 0.25 * TouchFit::untouched(&left()).tip_deviation(), "{deviation}");
     assert!(Workspace::new(&left(), &fit.parameters).error(&(fit.parameters - truth)) < 3.0 * deviation);
 }
+
+#[test]
+fn a_whisker_too_weak_for_its_hinge_is_known_before_any_touch() {
+    let noise = TouchNoise { position: 1e-5, heading: 1e-6 };
+    let check =
+        |whisker: &Whisker| TouchPlan::new(whisker, 0.1 * whisker.shaft.length, 1e-7, &noise).check(whisker, 20, 2e-8);
+    for whisker in &Rig::default().whiskers {
+        assert_eq!(check(whisker), Ok(()));
+        // The shaft of a rat: 30 mm of keratin, 0.1 mm thick at its base and 4 um at its tip.
+        let mut weak = whisker.clone();
+        (weak.shaft.length, weak.shaft.radius, weak.shaft.tip_radius) = (30e-3, 50e-6, Some(2e-6));
+        weak.shaft.young_modulus = 3e9;
+        assert!(matches!(check(&weak), Err(TouchRefusal::Hopeless { touches: 20, .. })), "{:?}", check(&weak));
+        // A stiffer tip bends the hinge more.
+        weak.shaft.tip_radius = Some(25e-6);
+        assert_eq!(check(&weak), Ok(()));
+    }
+}

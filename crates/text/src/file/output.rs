@@ -1,5 +1,6 @@
 //! An output of a command.
 
+use crate::system::in_words;
 use std::fmt;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Write, stderr, stdout};
@@ -47,7 +48,7 @@ impl fmt::Display for Stream {
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The file cannot be written.
-    #[error("cannot write {}: {cause}; give another path with {argument}", path.display())]
+    #[error("cannot write {}: {words}; give another path with {argument}", path.display(), words = in_words(cause))]
     Unwritable {
         /// The argument that names the file or its folder.
         argument: &'static str,

@@ -53,6 +53,22 @@ pub enum OutlineFault {
         /// The number of invisible parts.
         unseen: usize,
     },
+    /// The frame of a drawing states no lengths.
+    #[error(
+        "the file does not state its unit of length: `{attribute}` is {}",
+        found.as_ref().map_or("missing".to_owned(), |found| format!("`{found}`, which is no physical length"))
+    )]
+    NoLength {
+        /// The attribute of the frame.
+        attribute: &'static str,
+        /// Its value, if it has one.
+        found: Option<String>,
+    },
+    /// The frame of a drawing does not say how many units it has.
+    #[error(
+        "the file does not state its unit of length: it has no `viewBox` of four numbers, so its units have no length"
+    )]
+    NoViewBox,
     /// The file states a unit of length that does not exist.
     #[error("the file states `{stated}` as its unit of length, which is not known")]
     UnknownUnit {
@@ -160,7 +176,10 @@ impl OutlineFault {
             Self::NotUtf8(_) => NotUtf8::ADVICE,
             Self::TooLarge { .. } => "leave out details that are finer than whiskers resolve, or split the drawing into several files",
             Self::Invisible { .. } => "make visible what is an outline, or choose it by `element`",
-            Self::NoUnit | Self::UnknownUnit { .. } => "add `unit`, such as `unit: 1 mm`",
+            Self::NoUnit | Self::NoViewBox | Self::UnknownUnit { .. } => "add `unit`, such as `unit: 1 mm`",
+            Self::NoLength { .. } => {
+                "add `unit`, such as `unit: 1 mm`; or write the size of the drawing in mm, cm, Q, in, pt or pc"
+            }
             Self::NoOutline => "draw closed lines, arcs, curves or shapes; texts and pictures are not read",
             Self::NoElement { meant: Some(meant), .. } => return format!("did you mean `{meant}`?"),
             Self::NoElement { .. } => "leave `element` out to read the whole file",

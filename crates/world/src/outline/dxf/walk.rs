@@ -35,6 +35,8 @@ pub(super) struct Walk<'d> {
     /// The number of entities that cannot be seen.
     unseen: usize,
     steps: usize,
+    /// The names of the blocks in each other that are being drawn, in lower case.
+    open: Vec<String>,
 }
 
 impl<'d> Walk<'d> {
@@ -48,6 +50,7 @@ impl<'d> Walk<'d> {
             is_found: false,
             unseen: 0,
             steps: 0,
+            open: Vec::new(),
         }
     }
 
@@ -127,7 +130,12 @@ impl<'d> Walk<'d> {
             return Err(at(OutlineFault::TooLarge { what: "blocks in each other", limit: DEEPEST }));
         }
         let name = insert.text(2);
-        let Some(block) = self.drawing.blocks.get(&name.to_lowercase()) else {
+        let key = name.to_lowercase();
+        if self.open.contains(&key) {
+            let reason = format!("the block `{}` contains itself", shown(name));
+            return Err(at(OutlineFault::Syntax { reason }));
+        }
+        let Some(block) = self.drawing.blocks.get(&key) else {
             let reason = format!("an INSERT refers to the block `{}`, which is not there", shown(name));
             return Err(at(OutlineFault::Syntax { reason }));
         };
@@ -135,6 +143,7 @@ impl<'d> Walk<'d> {
             let what = format!("the block `{}` of another file", shown(name));
             return Err(at(unsupported(&what, "bind it into this file, or take it out")));
         }
+        self.open.push(key);
         let count = |code| Ok::<_, OutlineError>(insert.integer(code)?.max(1));
         let (columns, rows) = (count(70)?, count(71)?);
         for row in 0..rows {
@@ -148,6 +157,7 @@ impl<'d> Walk<'d> {
                 }
             }
         }
+        self.open.pop();
         Ok(())
     }
 

@@ -15,7 +15,7 @@ const EVEN: f64 = 1e-4;
 pub(super) fn transform(root: Node<'_, '_>, unit: Option<f64>, styles: &Styles) -> Result<Transform, OutlineError> {
     let [across, up] = match unit {
         Some(unit) => [unit, unit],
-        None => units_of(root, styles).ok_or(OutlineFault::NoUnit)?,
+        None => units_of(root, styles)?,
     };
     // The y axis of the file points down.
     Ok(Transform::scaled(1.0).inner([across, 0.0], [0.0, -up], [0.0, 0.0]))
@@ -23,20 +23,33 @@ pub(super) fn transform(root: Node<'_, '_>, unit: Option<f64>, styles: &Styles) 
 
 /// The lengths (m) of a user unit along x and y, if width and height are physical lengths and the view box gives their number of units.
 /// If they give different scales, the drawing is fitted into the frame with one of them, or stretched.
-fn units_of(root: Node<'_, '_>, styles: &Styles) -> Option<[f64; 2]> {
-    let view: ViewBox = root.attribute("viewBox")?.parse().ok()?;
-    let paper = |name| metres(styles.property(root, name)?);
-    let (across, up) = (paper("width")? / view.w, paper("height")? / view.h);
+fn units_of(root: Node<'_, '_>, styles: &Styles) -> Result<[f64; 2], OutlineFault> {
+    let paper = |attribute| {
+        let found = styles.property(root, attribute);
+        found.and_then(metres).ok_or_else(|| OutlineFault::NoLength { attribute, found: found.map(shortened) })
+    };
+    let (width, height) = (paper("width")?, paper("height")?);
+    let view: Option<ViewBox> = root.attribute("viewBox").and_then(|text| text.parse().ok());
+    let view = view.ok_or(OutlineFault::NoViewBox)?;
+    let (across, up) = (width / view.w, height / view.h);
     if (across - up).abs() <= EVEN * across {
-        return Some([across, across]);
+        return Ok([across, across]);
     }
     // The standard ignores an invalid value.
     let ratio = root.attribute("preserveAspectRatio").and_then(|text| text.trim().parse::<AspectRatio>().ok());
-    Some(match ratio {
+    Ok(match ratio {
         Some(AspectRatio { align: Align::None, .. }) => [across, up],
         Some(AspectRatio { slice: true, .. }) => [across.max(up); 2],
         _ => [across.min(up); 2],
     })
+}
+
+/// A value in a message. Nobody reads a long one.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 40;
+    let mut letters = text.trim().chars();
+    let start: String = letters.by_ref().take(MOST).collect();
+    if letters.next().is_some() { start + "..." } else { start }
 }
 
 /// A physical length (m). Units have any case, and there may be a blank before them.
