@@ -158,8 +158,8 @@ impl Senses for Script {
         match quantity {
             MapScalar::Unknown => 0.02,
             MapScalar::IsComplete => f64::from(u8::from(told % 5 == 4)),
-            MapScalar::HasNext => f64::from(u8::from(told % 2 == 0)),
-            MapScalar::NextIsSurface => f64::from(u8::from(told % 3 == 0)),
+            MapScalar::HasNext => f64::from(u8::from(told.is_multiple_of(2))),
+            MapScalar::NextIsSurface => f64::from(u8::from(told.is_multiple_of(3))),
             MapScalar::NextSide => 1.0,
             MapScalar::NextHeading => 0.1 * told as f64,
             MapScalar::RouteSpeed => 0.06,

@@ -414,7 +414,7 @@ impl Interpreter<'_> {
     /// A member of the map.
     fn of_map(&self, member: &str, values: &[Value]) -> Value {
         let holds = |question, heading| {
-            let position = values.first().map(|position| position.clone().vector());
+            let position = values.first().map(|position| position.vector());
             Value::Truth(position.is_some_and(|position| self.senses.map_holds(question, position, heading)))
         };
         let number = |quantity| Value::Number(self.senses.map(quantity));
@@ -423,7 +423,7 @@ impl Interpreter<'_> {
         match member {
             "free" => holds(MapQuestion::IsFree, 0.0),
             "traced" => holds(MapQuestion::IsTraced, 0.0),
-            "clear" => holds(MapQuestion::IsClear, values[1].clone().number()),
+            "clear" => holds(MapQuestion::IsClear, values[1].number()),
             "complete" => truth(MapScalar::IsComplete),
             "next.exists" => truth(MapScalar::HasNext),
             "next.on_surface" => truth(MapScalar::NextIsSurface),

@@ -66,8 +66,8 @@ pub(crate) enum At {
 }
 
 impl At {
-    /// The names of the arguments, their types, and examples.
-    pub(crate) fn takes(self) -> &'static [(&'static str, Type, &'static str)] {
+    /// The arguments.
+    pub(crate) fn takes(self) -> Takes {
         match self {
             Self::Tip => &[("base angle", Type::ANGLE, "300 urad")],
             Self::Contour(_) => &[("distance behind the end", Type::LENGTH, "5 mm")],
@@ -369,8 +369,11 @@ const ROUTE: [Member; 5] = [
     ),
 ];
 
-/// The events of the map that a statement can tell: the name, its values as those of a member, and the meaning.
-pub(crate) const MAP_EVENTS: [(&str, &[(&str, Type, &str)], &str); 3] = [
+/// The names of values, their types, and examples.
+type Takes = &'static [(&'static str, Type, &'static str)];
+
+/// The events of the map that a statement can tell: the name, the values, and the meaning.
+pub(crate) const MAP_EVENTS: [(&str, Takes, &str); 3] = [
     (
         "go_to",
         &[("position", Type::Position, "map.next.position"), ("heading", Type::ANGLE, "map.next.heading")],

@@ -276,7 +276,7 @@ fn members(owner: Type) -> impl Iterator<Item = Candidate> {
     })
 }
 
-/// What the map can be told.
+/// The events of the map.
 fn map_events() -> impl Iterator<Item = Candidate> {
     MAP_EVENTS.iter().map(|&(name, takes, meaning)| {
         let fields = (1..).zip(takes).map(|(number, (value, ..))| format!("${{{number}:{value}}}"));

@@ -114,7 +114,7 @@ pub(super) enum Meaning {
     Member(Type, Member),
     /// A member of a list, by the symbol of its type and its index in the table.
     ListMember(usize, usize),
-    /// Something that the map can be told, by its index in the table.
+    /// An event of the map, by its index in the table.
     MapEvent(usize),
     Type(Type),
     Unit(Dimension),

@@ -10,7 +10,7 @@ use super::Compiler;
 use super::scope::Scope;
 
 impl<'f> Compiler<'f> {
-    /// Lowers an event that the map is told.
+    /// Lowers an event of the map.
     pub(super) fn tell_map(&mut self, scope: &Scope<'f>, event: &'f Name, values: &'f [Expression]) -> Option<()> {
         self.allow_telling_the_map(event.span)?;
         let Some(&(_, takes, _)) = MAP_EVENTS.iter().find(|(known, ..)| *known == event.text) else {

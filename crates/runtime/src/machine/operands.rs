@@ -79,7 +79,7 @@ impl Index {
 pub enum Effect {
     /// No effect. The result depends only on the operands.
     Pure,
-    /// No effect, but the result depends on perception or on the map. Until a tip is recorded, or the map is told something, the
+    /// No effect, but the result depends on perception or on the map. Until a tip is recorded, or the map gets an event, the
     /// same operation has the same result.
     Sensing,
     /// A side effect: it changes memory, jumps, records or gives an action.

@@ -88,7 +88,7 @@ impl Lattice {
     }
 
     /// True if a move of the lattice leads ahead.
-    pub(super) fn is_ahead(&self, node: Node, step: usize) -> bool {
+    pub(super) fn is_ahead(node: Node, step: usize) -> bool {
         let Some(&(x, y)) = STEPS.get(step) else { return true };
         leads_ahead(heading_of(node.heading), Vector2::new(f64::from(x), f64::from(y)))
     }

@@ -34,10 +34,10 @@ const LEAST: (f64, f64) = (5e-3, 0.05);
 const AHEAD: usize = 8;
 /// Cosine of the largest change of direction that counts as straight on.
 const STRAIGHT: f64 = 0.999;
-/// Distance (m) from the way to the next step at which the body has left the route. It is one stride of the search.
+/// Distance (m) from the path to the next step at which the body has left the route. It is one stride of the search.
 const LEFT: f64 = 24e-3;
 
-/// The way of the body along the steps of a route.
+/// The motion of the body along the steps of a route.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Follower {
     /// Index of the next step.
@@ -81,10 +81,9 @@ impl Follower {
         }
         let (speed, yaw_rate) = match step.ground {
             Ground::Proved => pace.proved,
-            Ground::Unknown => pace.unknown,
             // The body leaves and reaches surfaces also where no route leads along them.
             Ground::NearSurface if pace.near_surface.0 > 0.0 => pace.near_surface,
-            Ground::NearSurface | Ground::Blocked => pace.unknown,
+            Ground::Unknown | Ground::NearSurface | Ground::Blocked => pace.unknown,
         };
         let turn = turn_between(body.heading, step.pose.heading);
         let left = offset.norm() + self.straight_behind(steps, offset);

@@ -230,7 +230,7 @@ impl RouteSearch {
                 }
                 let ground = lattice.ground(cells, near, node, step);
                 // Unproved ground is entered with the nose ahead, unless there is no other way.
-                let is_guarded = ground == Ground::Proved || lattice.is_ahead(node, step);
+                let is_guarded = ground == Ground::Proved || Lattice::is_ahead(node, step);
                 let extra = if is_guarded { 0 } else { UNGUARDED };
                 if let Some(more) = self.pace.cost(ground, lattice.size(cells.grid, step)) {
                     let estimate = self.estimate(next);
