@@ -66,6 +66,7 @@ impl Score {
         let last_tip = tips.iter().max_by_key(|tip| tip.tick).map(|tip| tip.tip_world);
         let path = body_path(&run.trace.ticks);
         let traced = traced_outlines(&estimate, &truth.reference);
+        let start = run.trace.ticks.first().map(|tick| tick.body);
         let outlines = outline_shares(&traced, &truth.reference);
         Self {
             time: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
@@ -74,7 +75,7 @@ impl Score {
             coverage: coverage_of(&traced, &truth.reference),
             object_coverage: object_coverage(&outlines, last_tip, &truth.reference),
             outline_coverages: outlines,
-            out_of_reach: out_of_reach_of(&traced, truth, rig) / truth.reference.length(),
+            out_of_reach: out_of_reach_of(&traced, truth, rig, start) / truth.reference.length(),
             passage: Passage::of((&run.trace, &tips, &estimate), &truth.axes, &truth.reference, rig),
             hausdorff: hausdorff(&estimate, &truth.reference),
             retrieval: RetrievalFigures::new(&run.trace),
