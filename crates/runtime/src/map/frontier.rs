@@ -114,6 +114,13 @@ impl Frontier {
         u32::try_from(count.sum::<usize>()).unwrap_or(u32::MAX)
     }
 
+    /// The blocks of the frontier, in the order of rows.
+    pub(super) fn blocks(&self) -> impl Iterator<Item = (i32, i32)> + '_ {
+        let side = i32::try_from(self.side).unwrap_or(0);
+        let all = (0..side).flat_map(move |row| (0..side).map(move |column| (column, row)));
+        all.filter(|(column, row)| self.is_frontier(*column, *row))
+    }
+
     /// Area (m²) of the frontier in the last whole pass. `None` before the first one has ended.
     pub(super) fn area(&self, grid: Grid) -> Option<f64> {
         let block = (BLOCK * BLOCK) as f64 * grid.cell_area();
