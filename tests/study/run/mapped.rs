@@ -1,5 +1,6 @@
 //! Runs of policies that use a map.
 
+use vibrissa::report::{growth_picture, picture};
 use vibrissa::scene::{Outcome, Stop};
 use vibrissa::trial::ExecuteError;
 
@@ -38,4 +39,21 @@ fn a_run_whose_map_stays_incomplete_times_out() {
     };
     let areas: Vec<f64> = map.stages.iter().map(area).chain([map.last.free_area()]).collect();
     assert!(areas[0] > 0.0 && areas.windows(2).all(|pair| pair[0] <= pair[1] + 1e-12), "{areas:?}");
+}
+
+#[test]
+fn a_picture_shows_the_map_and_a_strip_how_it_grew() {
+    let mapped = trial("tell map.go_to(body.position, body.yaw)", 8.0);
+    let result = mapped.run().unwrap();
+    let scene = &mapped.scene;
+    let drawn = picture(scene, "still", &result.run, &result.score);
+    assert!(drawn.contains("Map by touch") && drawn.len() < 200_000, "{} bytes", drawn.len());
+    let map = result.run.map.as_deref().unwrap();
+    let grown = growth_picture(scene, "still", &result.run.trace, map);
+    assert_eq!(grown.matches("<clipPath").count(), 6);
+    assert!(grown.contains("\n8 s\n") && grown.len() < 400_000, "{} bytes", grown.len());
+    let mut plain = trial("", 1.0);
+    plain.scene.stop.mapped = false;
+    let result = plain.run().unwrap();
+    assert!(!picture(scene, "still", &result.run, &result.score).contains("Map by touch"));
 }
