@@ -85,7 +85,7 @@ figures! {
         .named("map_free_area").in_tests(),
     MapWrongFreeArea: figure(Area, "map.wrong_free_m2", "the part of that area that is more than 2 mm inside of an object. Unknown without a map").always()
         .smaller().named("map_wrong_free_area").bound(AREA.0, "0 m^2").in_tests().column_if_known(92, "wrongly free m\u{b2}", Decimals(6)),
-    MapUnknownArea: figure(Area, "map.unknown_m2", "the area of the unknown ground beside free ground, which is left to be looked at. Unknown without a map").always()
+    MapUnknownArea: figure(Area, "map.unknown_m2", "the area of the unknown ground beside free ground, which is left, also where the policy gave up. Unknown without a map").always()
         .smaller().named("map_unknown_area").bound(AREA.0, AREA.1).in_tests().column_if_known(94, "unknown m\u{b2}", Decimals(4)),
 
     Retrievals: figure(Count, "retrieval.count", "the number of retrievals: from `mark lost` to the next `mark found` of the same whisker").always()

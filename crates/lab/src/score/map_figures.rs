@@ -17,7 +17,7 @@ pub struct MapFigures {
     pub free: f64,
     /// Part of it that is more than [`WRONG_DEPTH`] inside of an object. Anything but 0 is an error of the map.
     pub wrong_free: f64,
-    /// Area of the unknown ground beside free ground: what is left to be looked at.
+    /// Area of the unknown ground beside free ground: what is left to be looked at, also where the policy gave up.
     pub unknown: f64,
     /// The position (m, world frame) that has the most unknown ground near it. `None` if nothing is unknown.
     pub unknown_near: Option<Point2>,
@@ -29,11 +29,12 @@ impl MapFigures {
     /// The figures of a map among surfaces.
     #[must_use]
     pub fn new(map: &Map, surfaces: &ContourSet) -> Self {
+        let unknown: Vec<_> = map.unknown_blocks().collect();
         Self {
             free: map.free_area(),
             wrong_free: wrong_free_area(map, surfaces),
-            unknown: map.unknown_area(),
-            unknown_near: densest(&map.unknown_blocks().collect::<Vec<_>>()),
+            unknown: unknown.len() as f64 * map.block_size().powi(2),
+            unknown_near: densest(&unknown),
             is_complete: map.is_complete(),
         }
     }

@@ -8,7 +8,7 @@ use super::clearance::{self, Ground};
 use super::contour_ends::ContourEnd;
 use super::contours::ContourPoint;
 use super::first_touch::FirstTouch;
-use super::frontier::Frontier;
+use super::frontier::{BLOCK, Frontier};
 use super::route::{RouteStatus, RouteStep};
 use super::route_follow::RouteMotion;
 use super::shaft_contact::ShaftContact;
@@ -147,16 +147,22 @@ impl Map {
         self.cells.blocked.spans().map(|span| CellSpan::new(self.cells.grid, span))
     }
 
+    /// Side (m) of a block of [unknown ground](Self::unknown_blocks).
+    #[must_use]
+    pub fn block_size(&self) -> f64 {
+        BLOCK as f64 * self.cells.grid.cell
+    }
+
     /// Side of a cell (m).
     #[must_use]
     pub fn cell_size(&self) -> f64 {
         self.cells.grid.cell
     }
 
-    /// The middles (m, world frame) of the blocks of [unknown ground beside free ground](Self::unknown_area), in the order of
-    /// rows.
+    /// The middles (m, world frame) of the blocks of unknown ground beside free ground, in the order of rows. Other than for the
+    /// [unknown area](Self::unknown_area), ground whose targets have failed counts.
     pub fn unknown_blocks(&self) -> impl Iterator<Item = Point2> + '_ {
-        self.frontier.blocks().map(|block| Frontier::centre(self.cells.grid, block))
+        self.frontier.left().map(|block| Frontier::centre(self.cells.grid, block))
     }
 
     /// The recorded points of surfaces. The points of a piece are in order.
