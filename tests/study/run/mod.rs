@@ -2,6 +2,7 @@
 
 mod arrays;
 mod hostile;
+mod mapped;
 mod mismatch;
 mod stepped_run;
 mod ticks;

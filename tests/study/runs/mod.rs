@@ -3,9 +3,13 @@
 
 use std::time::Duration;
 
+use vibrissa::built_in::SCENARIOS;
+use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose, Vector2, unit};
+use vibrissa::request::{Input, PolicyInput, TrialRequest};
 use vibrissa::run::{Run, TickRecord, Trace};
-use vibrissa::scene::Outcome;
+use vibrissa::scene::{Outcome, Stop, WorldKind};
+use vibrissa::trial::Trial;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 /// Time between ticks (s).
@@ -54,6 +58,7 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
             further_messages: 0,
             crashed: false,
         },
+        map: None,
         contracts: vec![],
         wall: Duration::from_millis(8),
         start: Duration::from_millis(40),
@@ -68,4 +73,17 @@ pub(crate) fn arc_of_tips(radius: f64, start: f64, sweep: f64, step: f64) -> Vec
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
     let count_tips = count as usize + 1;
     (0..count_tips).map(|k| Some(Point2::from(radius * unit(start + sweep * (k as f64 / count))))).collect()
+}
+
+/// A policy that stands still on the disk and does something with the map, for at most this time (s). Its map has to be complete.
+pub(crate) fn mapped_trial(does: &str, time: f64) -> Trial {
+    let still = format!("machine still\n\nwhisker r0\n\ninitial Still\n\nstate Still {{ {does} stop }}\n");
+    let request = TrialRequest {
+        policy: Some(PolicyInput::Text(Source::new("still.fsm", still))),
+        world: Some(WorldKind::QuasiStatic),
+        ..TrialRequest::new(Input::BuiltIn(&SCENARIOS[0]))
+    };
+    let mut trial = request.prepare().unwrap().trial;
+    trial.scene.stop = Stop { mapped: true, ..Stop::at(time) };
+    trial
 }

@@ -1,6 +1,7 @@
 //! Scores against the exact geometry.
 
 mod corners;
+mod map_figures;
 mod passage;
 mod reach;
 mod response;

@@ -1,7 +1,7 @@
 //! What the rig cannot get to, in scenes where geometry tells that.
 
 use proptest::prelude::*;
-use vibrissa::geometry::{Contour, Point2, circle, polygon};
+use vibrissa::geometry::{Contour, Point2, Pose, circle, polygon};
 use vibrissa::scene::Truth;
 use vibrissa::score::{Estimate, out_of_reach};
 use vibrissa_runtime::rig::Rig;
@@ -10,7 +10,23 @@ use crate::runs::run_with;
 
 /// The length (m) that is out of reach of a rig that has recorded these tips.
 fn unreached(contour: Contour, rig: &Rig, tips: Vec<Option<Point2>>) -> f64 {
-    out_of_reach(&Estimate::new(&run_with(&[tips]).trace), &Truth::from(contour), rig)
+    unreached_from(None, contour, rig, tips)
+}
+
+/// The same for a platform that starts at a position.
+fn unreached_from(start: Option<Point2>, contour: Contour, rig: &Rig, tips: Vec<Option<Point2>>) -> f64 {
+    let start = start.map(|position| Pose { position, heading: 1.0 });
+    out_of_reach(&Estimate::new(&run_with(&[tips]).trace), &Truth::from(contour), rig, start)
+}
+
+/// A square room with an inner side, walls of 3 cm and a door (m) in the middle of its lower wall.
+fn room(side: f64, door: f64) -> Contour {
+    let (wall, left, right) = (0.03, 0.5 * (side - door), 0.5 * (side + door));
+    let far = side + wall;
+    let outside = [(right, -wall), (far, -wall), (far, far), (-wall, far), (-wall, -wall), (left, -wall)];
+    let inside = [(left, 0.0), (0.0, 0.0), (0.0, side), (side, side), (side, 0.0), (right, 0.0)];
+    let corners: Vec<_> = outside.into_iter().chain(inside).map(|(x, y)| Point2::new(x, y)).collect();
+    polygon(&corners).unwrap()
 }
 
 /// A hook with walls of 3 cm, open at its top, that is so wide and so deep (m) inside.
@@ -55,6 +71,34 @@ fn the_end_of_a_deep_hook_is_out_of_reach() {
 #[test]
 fn all_of_a_wide_hook_is_in_reach() {
     assert!(unreached(hook(0.3, 0.2), &Rig::default(), Vec::new()) < 1e-12);
+}
+
+#[test]
+fn the_outside_of_a_room_is_out_of_reach_from_its_inside() {
+    let (side, door, rig) = (0.6, 0.02, Rig::default());
+    let found = unreached_from(Some(Point2::new(0.3, 0.3)), room(side, door), &rig, Vec::new());
+    // A whisker reaches out by the door, and along the outer wall on both sides of it.
+    let exact = 4.0 * (side + 0.06) - door;
+    let through = 2.0 * rig.whiskers[0].shaft.length;
+    assert!(found <= exact + 0.06 && found >= exact - through, "{found} m of {exact} m");
+}
+
+#[test]
+fn all_of_a_room_is_in_reach_by_a_door_that_the_body_passes() {
+    let rig = Rig::default();
+    for start in [Point2::new(0.3, 0.3), Point2::new(0.3, -0.4)] {
+        let found = unreached_from(Some(start), room(0.6, 1.1 * rig.platform.tail_width), &rig, Vec::new());
+        assert!(found < 1e-12, "{found} m");
+    }
+}
+
+#[test]
+fn a_start_in_the_open_or_inside_of_an_object_limits_nothing() {
+    let rig = Rig::default();
+    for (outline, x, y) in [(room(0.6, 0.02), 2.0, 2.0), (room(0.6, 0.02), -0.015, 0.3), (hook(0.08, 0.2), -0.3, 0.1)] {
+        let free = unreached(outline.clone(), &rig, Vec::new());
+        assert_eq!(unreached_from(Some(Point2::new(x, y)), outline, &rig, Vec::new()).to_bits(), free.to_bits());
+    }
 }
 
 #[test]

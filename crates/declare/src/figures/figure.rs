@@ -7,6 +7,8 @@ use vibrissa_runtime::units::Dimension;
 pub enum Kind {
     /// A length (m).
     Length,
+    /// An area (m²).
+    Area,
     /// A time (s).
     Time,
     /// An angle (rad).
@@ -161,6 +163,7 @@ impl Figure {
     pub fn dimension(&self) -> Dimension {
         match self.kind {
             Kind::Length => Dimension::LENGTH,
+            Kind::Area => Dimension::AREA,
             Kind::Time => Dimension::TIME,
             Kind::Angle => Dimension::ANGLE,
             Kind::Share | Kind::Ratio | Kind::Count | Kind::Truth => Dimension::NUMBER,
@@ -174,6 +177,7 @@ impl Figure {
         match self.kind {
             Kind::Length if has("_mm") => "mm",
             Kind::Length => "m",
+            Kind::Area => "m\u{b2}",
             Kind::Time if has("_us") => "\u{b5}s",
             Kind::Time => "s",
             Kind::Angle => "rad",

@@ -22,12 +22,13 @@ const fn or_null(key: &'static str, meaning: &'static str) -> Group {
 }
 
 /// All groups. A key of a figure with a dot belongs to the group before the dot.
-pub static GROUPS: [Group; 20] = [
+pub static GROUPS: [Group; 21] = [
     group("error_mm", "distance of the tip estimates from the nearest surface"),
     or_null("tip_error_mm", "distance of the tip estimates from the true tips. `null` if the run recorded no tip"),
     group("tip_error_mm.along", "along the contour"),
     group("tip_error_mm.across", "perpendicular to the contour"),
     or_null("passage", "passage of the platform through a tunnel. `null` outside of tunnels"),
+    or_null("map", "the map by touch. `null` if the policy uses none"),
     or_null(
         "retrieval",
         "retrievals of whiskers that had lost the object, by the baseline's definitions (section 5.2 of its report). `null` if the policy made no marks",

@@ -70,6 +70,7 @@ fn every_declaration_is_complete_and_no_name_or_key_stands_twice() {
         assert!(name.is_none() || !figure.larger_is_better() || figure.kind == Kind::Share, "{name:?}");
         let units = match figure.kind {
             Kind::Length => &["_mm", "_m"][..],
+            Kind::Area => &["_m2"],
             Kind::Time => &["_s", "_us"],
             Kind::Angle => &["_rad"],
             Kind::Share | Kind::Ratio | Kind::Count | Kind::Truth => &[""],

@@ -3,7 +3,7 @@
 use super::figure::{Cell, Figure, Kind};
 
 use Cell::{Decimals, Positive, Spread};
-use Kind::{Angle, Count, Length, Ratio, Share, Time, Truth};
+use Kind::{Angle, Area, Count, Length, Ratio, Share, Time, Truth};
 
 /// Declares the variants of [`Metric`] and their figures.
 macro_rules! figures {
@@ -29,6 +29,7 @@ const fn figure(kind: Kind, key: &'static str, meaning: &'static str) -> Figure 
 
 /// The bounds of lengths, which are errors.
 const ERROR: ((f64, f64), &str) = ((1e-9, 1.0), "0.8 mm");
+const AREA: ((f64, f64), &str) = ((0.0, 1e4), "0.02 m^2");
 const SHARE: ((f64, f64), &str) = ((0.0, 1.0), "95 %");
 const COUNT: ((f64, f64), &str) = ((0.0, 1e6), "0");
 
@@ -79,6 +80,13 @@ figures! {
     Hausdorff: figure(Length, "hausdorff_mm", "the Hausdorff distance between the estimated and the exact contour")
         .smaller().named("hausdorff").bound(ERROR.0, ERROR.1).in_tests()
         .column(140, "farthest untraced mm", Decimals(3)).compared(50, "hausdorff_mm"),
+
+    MapFreeArea: figure(Area, "map.free_m2", "the area that the map claims as free. Unknown without a map").always()
+        .named("map_free_area").in_tests(),
+    MapWrongFreeArea: figure(Area, "map.wrong_free_m2", "the part of that area that is more than 2 mm inside of an object. Unknown without a map").always()
+        .smaller().named("map_wrong_free_area").bound(AREA.0, "0 m^2").in_tests().column_if_known(92, "wrongly free m\u{b2}", Decimals(6)),
+    MapUnknownArea: figure(Area, "map.unknown_m2", "the area of the unknown ground beside free ground, which is left, also where the policy gave up. Unknown without a map").always()
+        .smaller().named("map_unknown_area").bound(AREA.0, AREA.1).in_tests().column_if_known(94, "unknown m\u{b2}", Decimals(4)),
 
     Retrievals: figure(Count, "retrieval.count", "the number of retrievals: from `mark lost` to the next `mark found` of the same whisker").always()
         .named("retrievals").in_tests(),

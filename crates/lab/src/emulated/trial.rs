@@ -72,6 +72,7 @@ pub fn run(
     // A device may need other rates than those for which the scenario has its step.
     plant_trial.scene.physics.fit_step(config.rig.sensing.sample_rate);
     let plant = WorldPlant::new(plant_trial.world()?, &trial.scene.rig, trial.scene.start);
+    trial.check_map()?;
     let control = Control::new(&config.rig, Arc::clone(&trial.program))?;
     let mut monitor = Monitor::new(&control, trial.scene.goal(), config.rig.sensing.control_rate.recip());
     let mut emulation = Emulation::new(config, control, plant, settings)?;

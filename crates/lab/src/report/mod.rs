@@ -14,7 +14,7 @@ pub use chart::{ChartTooLarge, chart_dot, chart_mermaid, chart_svg};
 pub use page::{RunFigures, bench_page, comparison_page, pareto_page, runs_page};
 pub use page::{families_page, sweep_page};
 pub use picture::profile_picture;
-pub use picture::{frame, pareto_picture, picture, retrieval_picture};
+pub use picture::{frame, growth_picture, pareto_picture, picture, retrieval_picture};
 pub use style::WHISKERS;
 pub use table::Table;
 pub use tables::{

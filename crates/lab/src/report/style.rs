@@ -22,6 +22,12 @@ pub(super) const PLATFORM: &str = "#52606d";
 pub(super) const PLATFORM_FILL: &str = "#cbd2d9";
 /// The untraced parts of the object.
 pub(super) const UNTRACED: &str = "#f8c4ae";
+/// Ground that a map has proved free.
+pub(super) const FREE_GROUND: &str = "#d8efdf";
+/// Ground that a map has blocked.
+pub(super) const BLOCKED_GROUND: &str = "#a99bc9";
+/// The route and the next target of a map.
+pub(super) const ROUTE: &str = "#1864ab";
 /// The state of failure.
 pub(super) const FAILURE: &str = "#f0846a";
 /// The axis of a tunnel.

@@ -10,6 +10,7 @@ use vibrissa_world::scene::{Goal, Outcome};
 use vibrissa_world::world::World;
 
 use super::contract::ContractRecord;
+use super::run_map::RunMap;
 use super::stepped_run::{Step, SteppedRun};
 use super::trace::Trace;
 
@@ -25,6 +26,8 @@ pub struct Run {
     pub final_state: String,
     /// The trace.
     pub trace: Trace,
+    /// The map by touch. `None` for a policy that uses none.
+    pub map: Option<Box<RunMap>>,
     /// The contracts of the policy that the run watched.
     pub contracts: Vec<ContractRecord>,
     /// Wall time of the loop alone.

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::{Fallback, LoggedMessage, Machine, Senses, Status, Tick, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::map::Map;
 use vibrissa_runtime::percept::{LoopWatch, Perception};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 use vibrissa_world::geometry::{Point2, Vector2};
@@ -13,6 +14,7 @@ use vibrissa_world::world::{Fault, World};
 use super::contract::ContractRecord;
 use super::drive::Run;
 use super::passage_watch::PassageWatch;
+use super::run_map::GrowthRecord;
 use super::stall_watch::StallWatch;
 use super::stopwatch::Stopwatch;
 use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
@@ -28,6 +30,8 @@ pub struct Monitor {
     loops: [LoopWatch; MAX_WHISKERS],
     passages: Vec<PassageWatch>,
     stall: Option<StallWatch>,
+    /// `None` without a map.
+    growth: Option<GrowthRecord>,
     stop: Stop,
     most_ticks: usize,
     start: Stopwatch,
@@ -82,6 +86,7 @@ impl Monitor {
             loops: Default::default(),
             passages: if stop.passed.is_some() { tunnels.iter().map(PassageWatch::new).collect() } else { Vec::new() },
             stall: stop.stalled.map(StallWatch::new),
+            growth: control.map().map(|_| GrowthRecord::new()),
             stop: *stop,
             most_ticks,
             start: Stopwatch::start(),
@@ -113,6 +118,9 @@ impl Monitor {
         let tick = record(control, command, ticked.fallback, world);
         self.trace.marks.extend(marks(control, self.trace.ticks.len()));
         self.record_outputs(control.machine());
+        if let (Some(growth), Some(map)) = (&mut self.growth, control.map()) {
+            growth.add(self.trace.ticks.len(), map);
+        }
         self.trace.ticks.push(tick);
         if ticked.status == Status::Failed {
             return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
@@ -139,6 +147,9 @@ impl Monitor {
                 return Some(Ending::COMPLETED);
             }
         }
+        if self.stop.mapped && control.map().is_some_and(Map::is_complete) {
+            return Some(Ending::COMPLETED);
+        }
         if let Some(reason) = self.stall.as_mut().and_then(|watch| watch.stalls(&tick)) {
             return Some(Ending::failed(Some(reason)));
         }
@@ -150,6 +161,7 @@ impl Monitor {
             Stop { loop_closed: Some(_), .. } => "the loop did not close",
             Stop { reached: Some(_), .. } => "the position was not reached",
             Stop { passed: Some(_), .. } => "the tunnel was not passed",
+            Stop { mapped: true, .. } => "the map was not complete",
             Stop { succeeded: true, .. } => "the policy did not end in `Success`",
             Stop { .. } => return Some(Ending::COMPLETED),
         };
@@ -190,6 +202,7 @@ impl Monitor {
             reason: ending.reason,
             final_state: machine.state_name().to_owned(),
             trace: self.trace,
+            map: self.growth.and_then(|growth| growth.finish(control)),
             contracts: machine.contracts().map(|observed| ContractRecord::new(machine.program(), &observed)).collect(),
             wall: self.start.elapsed(),
             start: self.first_tick.unwrap_or_default(),

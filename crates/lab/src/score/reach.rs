@@ -1,5 +1,6 @@
 //! Parts of an outline that the rig cannot reach.
 
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 use std::f64::consts::TAU;
@@ -7,11 +8,11 @@ use std::ops::Range;
 
 use super::Estimate;
 use super::coverage::traced_outlines;
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
+use super::enclosure::Enclosure;
+use super::outlines::{Outlines, inner_radius, middle_of};
 use vibrissa_runtime::rig::Rig;
-use vibrissa_world::geometry::{BoundingBox, Contour, Point2, Segment, Vector2, perpendicular, rotate};
-use vibrissa_world::scene::{Truth, gap};
+use vibrissa_world::geometry::{Contour, Point2, Pose, Vector2, perpendicular, rotate};
+use vibrissa_world::scene::Truth;
 
 /// Cell size (m) of the grid on which the base of a whisker and its shaft are searched. Narrower gaps count as closed.
 const CELL_SIZE: f64 = 2.5e-3;
@@ -24,28 +25,32 @@ const STRAIGHT_HEADINGS: u32 = 24;
 const SPACING: f64 = 4e-3;
 /// The largest ratio of a path along sides and diagonals of cells to the straight distance.
 const DETOUR: f64 = 1.0824;
-/// The distance (m) up to which two lines intersect, because of rounding.
-const ROUNDING: f64 = 1e-9;
+/// The width (m) of a gap up to which it is closed for a whisker of an enclosed platform.
+const SLIT: f64 = 2.0 * CELL_SIZE;
+/// The distance (m) from a point without a near base within which others are not searched again.
+const SHARED: f64 = 0.1;
 /// The distance (m) of the sampled points from the outline, on the outside.
 const OUTSIDE_OFFSET: f64 = 1e-5;
 
-/// The length (m) of the untraced reference that no tip of the rig can touch from any pose.
+/// The length (m) of the untraced reference that no tip of the rig can touch from any pose. `start` is the pose of the platform at
+/// the start, if it is known.
 ///
 /// A tip can touch a point only under two conditions. The platform has a pose in which its footprint is clear of all
 /// solids. The shortest path through free space from the base of a whisker to the point is no longer than the whisker,
-/// because a bent shaft is never shorter than this path. Other conditions are ignored: whether the platform can move to
-/// the pose, how far a shaft can bend, and where the other whiskers are. The result is therefore a lower bound.
+/// because a bent shaft is never shorter than this path. If objects enclose the start, the platform can also move to the pose:
+/// the disc in its footprint passes every gap on the way. Other conditions are ignored: whether the footprint passes them, how far
+/// a shaft can bend, and where the other whiskers are. The result is therefore a lower bound.
 ///
 /// Poses are sampled on a grid. Footprints are reduced by the distance between neighbouring poses, some 4 mm for the
 /// reference rig. In a tapered gap, this admits some 15 mm more. Points are sampled every 4 mm.
 #[must_use]
-pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig) -> f64 {
-    out_of_reach_of(&traced_outlines(estimate, &truth.reference), truth, rig)
+pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig, start: Option<Pose>) -> f64 {
+    out_of_reach_of(&traced_outlines(estimate, &truth.reference), truth, rig, start)
 }
 
 /// The same, by the traced intervals of each contour of the reference.
-pub(super) fn out_of_reach_of(traced: &[Vec<Range<f64>>], truth: &Truth, rig: &Rig) -> f64 {
-    let mut search = Search::new(rig, truth);
+pub(super) fn out_of_reach_of(traced: &[Vec<Range<f64>>], truth: &Truth, rig: &Rig, start: Option<Pose>) -> f64 {
+    let mut search = Search::new(rig, truth, start);
     let of_contour = |(contour, traced): (&Contour, &Vec<Range<f64>>)| -> f64 {
         untraced(traced, contour.length()).map(|stretch| search.out_of_reach(contour, &stretch)).sum()
     };
@@ -65,12 +70,21 @@ type Node = (i64, i64);
 
 /// A search through the free space of one scene. Results for nodes are cached.
 struct Search<'s> {
+    rig: &'s Rig,
+    /// The pose of the platform at the start, if it is known.
+    start: Option<Pose>,
     outlines: Outlines<'s>,
     /// For every whisker, the corners of the footprint relative to its base (m, body frame), reduced by the distance
     /// between neighbouring poses.
     mounts: Vec<[Vector2; 4]>,
+    /// The largest of these reductions (m).
+    margin: f64,
     /// The longest whisker (m).
     length: f64,
+    /// The ground that the platform cannot leave. It is found when it is first asked for.
+    enclosure: OnceCell<Option<Enclosure>>,
+    /// The last point that is farther from all bases than a whisker's length and [`SHARED`].
+    far: Option<Point2>,
     is_free: HashMap<Node, bool>,
     has_base: HashMap<Node, bool>,
     /// True for a line between two neighbouring nodes, the smaller one first, that crosses no outline.
@@ -78,18 +92,26 @@ struct Search<'s> {
 }
 
 impl<'s> Search<'s> {
-    fn new(rig: &Rig, truth: &'s Truth) -> Self {
+    fn new(rig: &'s Rig, truth: &'s Truth, start: Option<Pose>) -> Self {
         let corners_body = rig.platform.outline_body();
+        let mut widest: f64 = 0.0;
         let mounts = rig.whiskers.iter().map(|whisker| {
             let from_base = corners_body.map(|corner| corner - whisker.base_body);
             let arm = from_base.iter().map(Vector2::norm).fold(0.0, f64::max);
             // Half of a cell's diagonal, and half of the rotation between two headings.
             let margin = CELL_SIZE * 0.5_f64.sqrt() + arm * std::f64::consts::PI / f64::from(HEADINGS);
+            widest = widest.max(margin);
             shrunk(from_base, margin)
         });
+        let mounts = mounts.collect();
         Self {
+            rig,
+            start,
+            margin: widest,
+            enclosure: OnceCell::new(),
+            far: None,
             outlines: Outlines::new(truth),
-            mounts: mounts.collect(),
+            mounts,
             length: rig.whiskers.iter().map(|whisker| whisker.shaft.length).fold(0.0, f64::max),
             is_free: HashMap::new(),
             has_base: HashMap::new(),
@@ -136,25 +158,43 @@ impl<'s> Search<'s> {
     /// whisker.
     fn reaches(&mut self, point: Point2) -> bool {
         let most = DETOUR * self.length + 2.0 * CELL_SIZE;
+        if self.enclosure().is_none() {
+            return self.nearest_base(point, most).is_some();
+        }
+        // The whole outside of a room is out of reach, so one search serves the points around it as well.
+        if self.far.is_some_and(|far| (point - far).norm() <= SHARED && self.outlines.is_open(far, point)) {
+            return false;
+        }
+        let nearest = self.nearest_base(point, most + DETOUR * SHARED + 2.0 * CELL_SIZE);
+        if nearest.is_none() {
+            self.far = Some(point);
+        }
+        nearest.is_some_and(|length| length <= most)
+    }
+
+    /// The length (m) of the shortest path through free space from a point to a base of a whisker, up to `most` (m).
+    fn nearest_base(&mut self, point: Point2, most: f64) -> Option<f64> {
         let mut open = BinaryHeap::new();
         let mut nearest: HashMap<Node, f64> = HashMap::new();
         let (column, row) = node_at(point);
+        // In a corner, the nodes beside both walls are farther away.
+        let within = if self.enclosure().is_some() { SLIT * 2.0_f64.sqrt() } else { 2.0 * CELL_SIZE };
         for node in (-1..=2).flat_map(|x| (-1..=2).map(move |y| (column + x, row + y))) {
             let length = (place(node) - point).norm();
-            if length <= 2.0 * CELL_SIZE && self.is_free(node) && self.outlines.is_open(point, place(node)) {
+            if length <= within && self.is_free(node) && self.outlines.is_open(point, place(node)) {
                 nearest.insert(node, length);
                 open.push(SearchPath { length, node });
             }
         }
         while let Some(SearchPath { length, node }) = open.pop() {
             if length > most {
-                return false;
+                return None;
             }
             if nearest.get(&node).is_some_and(|&shorter| shorter < length) {
                 continue;
             }
             if self.has_base(node) {
-                return true;
+                return Some(length);
             }
             for step in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
                 let next = (node.0 + step.0, node.1 + step.1);
@@ -166,12 +206,20 @@ impl<'s> Search<'s> {
                 }
             }
         }
-        false
+        None
     }
 
     fn is_free(&mut self, node: Node) -> bool {
-        let outlines = &self.outlines;
-        *self.is_free.entry(node).or_insert_with(|| outlines.is_outside(place(node)))
+        if let Some(&known) = self.is_free.get(&node) {
+            return known;
+        }
+        // The slit by which an outline encloses the start is closed wherever the nodes are.
+        let is_free = match self.enclosure() {
+            None => self.outlines.is_outside(place(node)),
+            Some(_) => self.outlines.clearance(place(node), 0.5 * SLIT) >= 0.5 * SLIT,
+        };
+        self.is_free.insert(node, is_free);
+        is_free
     }
 
     /// True if the line between two neighbouring nodes crosses no outline.
@@ -187,7 +235,8 @@ impl<'s> Search<'s> {
             return known;
         }
         let base = place(node);
-        let found = self.mounts.iter().any(|corners| self.has_heading(base, corners));
+        let is_near = self.enclosure().is_none_or(|enclosure| enclosure.is_near(base));
+        let found = is_near && self.mounts.iter().any(|corners| self.has_heading(base, corners));
         self.has_base.insert(node, found);
         found
     }
@@ -202,6 +251,10 @@ impl<'s> Search<'s> {
         let mut index = 0;
         while index < HEADINGS {
             let heading = f64::from(index) * STEP;
+            if !self.is_connected(base + rotate(middle, heading)) {
+                index += 1;
+                continue;
+            }
             // The middle of the footprint moves by no more than its arc. So it stays that deep for some headings.
             let depth = self.outlines.depth(base + rotate(middle, heading), inner_radius);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of headings")]
@@ -227,99 +280,24 @@ impl<'s> Search<'s> {
     fn is_clear(&self, base: Point2, corners: &[Vector2; 4], heading: f64) -> bool {
         let corners = corners.map(|corner| base + rotate(corner, heading));
         // The reduced footprint does not contain the base, and a thin wall could separate them.
-        self.outlines.are_clear_of(&corners) && self.outlines.is_open(base, middle_of(&corners))
+        let middle = middle_of(&corners);
+        self.is_connected(middle) && self.outlines.are_clear_of(&corners) && self.outlines.is_open(base, middle)
     }
-}
 
-/// The outlines of all solids, found by their bounding boxes.
-struct Outlines<'s> {
-    contours: Vec<&'s Contour>,
-    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
-}
+    /// True if the middle of the footprint may come from the start to a point.
+    fn is_connected(&self, middle: Point2) -> bool {
+        self.enclosure().is_none_or(|enclosure| enclosure.admits(middle))
+    }
 
-impl<'s> Outlines<'s> {
-    fn new(truth: &'s Truth) -> Self {
-        let contours: Vec<_> = truth.surfaces.contours().collect();
-        let of_contour = |(index, contour): (usize, &&Contour)| {
-            let BoundingBox { min, max } = contour.bounding_box();
-            GeomWithData::new(Rectangle::from_corners(min.into(), max.into()), index)
+    /// The ground that the platform cannot leave, if objects enclose it.
+    fn enclosure(&self) -> Option<&Enclosure> {
+        let find = || {
+            let middle = |corners: &[Vector2; 4]| middle_of(&corners.map(Point2::from)).coords.norm();
+            let arm = self.mounts.iter().map(middle).fold(0.0, f64::max);
+            Enclosure::new(self.start?, self.rig, &self.outlines, self.margin, arm)
         };
-        Self { boxes: RTree::bulk_load(contours.iter().enumerate().map(of_contour).collect()), contours }
+        self.enclosure.get_or_init(find).as_ref()
     }
-
-    /// The contours whose bounding boxes meet the box around some points, within the rounding error.
-    fn near(&self, points: &[Point2]) -> impl Iterator<Item = &'s Contour> {
-        let corner = |infinite: f64| Point2::new(infinite, infinite);
-        let min = points.iter().fold(corner(f64::INFINITY), |min, point| min.inf(point));
-        let max = points.iter().fold(corner(f64::NEG_INFINITY), |max, point| max.sup(point));
-        let margin = Vector2::new(2.0 * ROUNDING, 2.0 * ROUNDING);
-        let around = AABB::from_corners((min - margin).into(), (max + margin).into());
-        self.boxes.locate_in_envelope_intersecting(around).filter_map(|of| self.contours.get(of.data).copied())
-    }
-
-    fn is_outside(&self, point: Point2) -> bool {
-        self.near(&[point]).all(|contour| !contour.contains(point))
-    }
-
-    /// True if the line between two points does not cross an outline.
-    fn is_open(&self, start: Point2, end: Point2) -> bool {
-        let line = Segment { start, end };
-        self.near(&[start, end]).all(|contour| crosses_nothing(contour, &line))
-    }
-
-    /// The distance (m) by which a point may move and remain in a solid, or as near to an outline as `radius` (m). Not positive if it is neither.
-    fn depth(&self, point: Point2, radius: f64) -> f64 {
-        let reach = Vector2::new(radius, radius);
-        let depth = |contour: &Contour| {
-            let distance = contour.distance(point);
-            let near = radius - ROUNDING - distance;
-            if contour.contains(point) { near.max(distance) } else { near }
-        };
-        self.near(&[point - reach, point + reach]).map(depth).fold(0.0, f64::max)
-    }
-
-    /// True if a convex polygon, given counter-clockwise, is clear of all solids.
-    fn are_clear_of(&self, corners: &[Point2; 4]) -> bool {
-        let middle = middle_of(corners);
-        let radius = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
-        let inner_radius = inner_radius(corners);
-        self.near(corners).all(|contour| {
-            let distance = contour.distance(middle);
-            if distance > radius {
-                return !contour.contains(middle);
-            }
-            // Most poses in a narrow gap end here: the polygon contains a point of the outline.
-            if distance < inner_radius - ROUNDING {
-                return false;
-            }
-            let mut sides = sides(corners).map(|side| crosses_nothing(contour, &side));
-            !contour.contains(middle) && sides.all(|clear| clear) && !is_within(corners, contour.point_at(0.0))
-        })
-    }
-}
-
-fn sides(corners: &[Point2; 4]) -> impl Iterator<Item = Segment> + use<> {
-    let corners = *corners;
-    (0..4).map(move |side| Segment { start: corners[side], end: corners[(side + 1) % 4] })
-}
-
-/// The distance (m) of the middle of a convex polygon, given counter-clockwise, from its nearest side.
-fn inner_radius(corners: &[Point2; 4]) -> f64 {
-    let middle = middle_of(corners);
-    let from_side = |side: Segment| (side.end - side.start).normalize().perp(&(middle - side.start));
-    sides(corners).map(from_side).fold(f64::INFINITY, f64::min)
-}
-
-fn middle_of(corners: &[Point2; 4]) -> Point2 {
-    Point2::from(corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords / 4.0))
-}
-
-fn crosses_nothing(contour: &Contour, line: &Segment) -> bool {
-    contour.pieces_near(line).all(|piece| gap(line, piece) > ROUNDING)
-}
-
-fn is_within(corners: &[Point2; 4], point: Point2) -> bool {
-    (0..4).all(|side| (corners[(side + 1) % 4] - corners[side]).perp(&(point - corners[side])) > 0.0)
 }
 
 /// Moves all sides of a convex polygon, given counter-clockwise, inwards by `margin` (m). A polygon that is too thin

@@ -3,9 +3,9 @@
 use super::coverage::{coverage_of, outline_shares, traced_outlines};
 use super::reach::out_of_reach_of;
 use super::{
-    Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, Moments, OutOfPlaneFigures,
-    Passage, Response, RetrievalFigures, StateShare, Tip, axis_error, body_path, hausdorff, object_coverage, responses,
-    state_shares, tips,
+    Collisions, CornerFigures, ErrorFigures, Estimate, InclinationFigures, Latency, MapFigures, Moments,
+    OutOfPlaneFigures, Passage, Response, RetrievalFigures, StateShare, Tip, axis_error, body_path, hausdorff,
+    object_coverage, responses, state_shares, tips,
 };
 use crate::run::Run;
 use vibrissa_runtime::rig::Rig;
@@ -33,6 +33,8 @@ pub struct Score {
     /// The symmetric [Hausdorff distance](hausdorff) between the estimated contour and the reference. `None` without
     /// recorded tips.
     pub hausdorff: Option<f64>,
+    /// The map by touch. `None` if the policy uses none.
+    pub map: Option<MapFigures>,
     /// Retrievals. `None` if the policy made no marks.
     pub retrieval: Option<RetrievalFigures>,
     /// [Distance of the estimated midpoints from the tunnel's axis](axis_error). `None` without a tunnel.
@@ -66,6 +68,7 @@ impl Score {
         let last_tip = tips.iter().max_by_key(|tip| tip.tick).map(|tip| tip.tip_world);
         let path = body_path(&run.trace.ticks);
         let traced = traced_outlines(&estimate, &truth.reference);
+        let start = run.trace.ticks.first().map(|tick| tick.body);
         let outlines = outline_shares(&traced, &truth.reference);
         Self {
             time: run.trace.ticks.last().map_or(0.0, |tick| tick.time),
@@ -74,9 +77,10 @@ impl Score {
             coverage: coverage_of(&traced, &truth.reference),
             object_coverage: object_coverage(&outlines, last_tip, &truth.reference),
             outline_coverages: outlines,
-            out_of_reach: out_of_reach_of(&traced, truth, rig) / truth.reference.length(),
+            out_of_reach: out_of_reach_of(&traced, truth, rig, start) / truth.reference.length(),
             passage: Passage::of((&run.trace, &tips, &estimate), &truth.axes, &truth.reference, rig),
             hausdorff: hausdorff(&estimate, &truth.reference),
+            map: run.map.as_ref().map(|map| MapFigures::new(&map.last, &truth.surfaces)),
             retrieval: RetrievalFigures::new(&run.trace),
             axis: axis_error(&run.trace, &truth.axes),
             corners: CornerFigures::new(&run.trace, &truth.reference),

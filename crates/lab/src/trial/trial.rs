@@ -173,7 +173,19 @@ impl Trial {
     /// # Errors
     /// [`ExecuteError`] if the rig does not have what the policy needs.
     pub fn control(&self) -> Result<Control, ExecuteError> {
+        self.check_map()?;
         Ok(Control::simulated(&self.assumed_rig, Arc::clone(&self.program))?)
+    }
+
+    /// Checks that the policy has a map if the run ends with one.
+    ///
+    /// # Errors
+    /// [`ExecuteError::NoMap`] if it has none.
+    pub(crate) fn check_map(&self) -> Result<(), ExecuteError> {
+        if self.scene.stop.mapped && !self.program.uses_map() {
+            return Err(ExecuteError::NoMap { policy: self.program.name.clone() });
+        }
+        Ok(())
     }
 
     /// The run of the trial at its start, to be stepped in its [world](Self::world).
@@ -193,10 +205,14 @@ impl Trial {
         drive(world, control, self.scene.goal(), self.period(), watcher).ok_or(ExecuteError::Interrupted)
     }
 
-    /// Scores a run of this trial.
+    /// Scores a run of this trial. The reason of a run with a map says what is left.
     #[must_use]
-    pub fn scored(&self, run: Run) -> TrialResult {
+    pub fn scored(&self, mut run: Run) -> TrialResult {
         let score = Score::new(&run, &self.scene.truth, &self.true_rig());
+        if let Some(map) = &score.map {
+            let left = map.left(score.coverage_in_reach());
+            run.reason = Some(run.reason.map_or_else(|| left.to_string(), |reason| format!("{reason}; {left}")));
+        }
         let violations = unmet(&self.scene.expect, &run, &score);
         TrialResult { run, score, violations }
     }

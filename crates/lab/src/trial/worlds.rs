@@ -18,6 +18,14 @@ pub enum ExecuteError {
     /// The scenario's rig does not have what the policy needs.
     #[error(transparent)]
     Bind(#[from] BindError),
+    /// The run ends with a map that the policy does not have.
+    #[error(
+        "the scenario has `stop: {{mapped: true}}`, but the policy `{policy}` has no map; use a policy that reads `map`, or end the run by `loop_closed` or `succeeded`"
+    )]
+    NoMap {
+        /// Name of the policy.
+        policy: String,
+    },
     /// The run was stopped.
     #[error("the run was interrupted")]
     Interrupted,

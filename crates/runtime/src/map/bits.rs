@@ -102,6 +102,36 @@ impl Bits {
         })
     }
 
+    /// The spans of set bits: the row, and the first and the last column of each, row by row.
+    pub(super) fn spans(&self) -> impl Iterator<Item = (i32, i32, i32)> + '_ {
+        let mut from = 0;
+        std::iter::from_fn(move || {
+            let side = self.side();
+            let start = self.first(from, side * side, true)?;
+            // A span ends with its row.
+            let end = self.first(start, (start / side + 1) * side, false).unwrap_or((start / side + 1) * side);
+            from = end;
+            let cell = |index: usize| i32::try_from(index).ok();
+            Some((cell(start / side)?, cell(start % side)?, cell((end - 1) % side)?))
+        })
+    }
+
+    /// The first cell from one index to before another one, counted row by row, whose bit is set, or is not.
+    fn first(&self, from: usize, before: usize, is_set: bool) -> Option<usize> {
+        let mut index = from;
+        while index < before {
+            let word = self.words[index / WORD];
+            let wanted = if is_set { word } else { !word };
+            let rest = wanted & u64::MAX << (index % WORD);
+            index -= index % WORD;
+            if rest != 0 {
+                return Some(index + rest.trailing_zeros() as usize).filter(|index| *index < before);
+            }
+            index += WORD;
+        }
+        None
+    }
+
     /// The words of the part of a span that is in the square.
     fn span(&self, row: i32, from: i32, to: i32) -> SpanWords {
         let last = i32::try_from(self.side()).unwrap_or(i32::MAX) - 1;
@@ -156,6 +186,15 @@ mod tests {
                     prop_assert_eq!(bits.get(column, row), at(column, row));
                 }
             }
+            let mut listed = vec![vec![false; 192]; 192];
+            for (row, from, to) in bits.spans() {
+                prop_assert!(from <= to && !at(from - 1, row) && !at(to + 1, row), "a span is as long as possible");
+                let (Ok(row), Ok(from), Ok(to)) = (usize::try_from(row), usize::try_from(from), usize::try_from(to)) else {
+                    return Err(TestCaseError::fail("outside"));
+                };
+                listed[row][from..=to].fill(true);
+            }
+            prop_assert_eq!(&listed, &expected);
             let (row, from, to) = asked;
             if from <= to {
                 prop_assert_eq!(bits.are_set(row, from, to), (from..=to).all(|column| at(column, row)));

@@ -97,9 +97,13 @@ impl Frontier {
 
     /// True for an unknown block beside a free one and beside no surface, which is not closed.
     pub(super) fn is_frontier(&self, column: i32, row: i32) -> bool {
+        !self.is_closed(column, row) && self.is_left(column, row)
+    }
+
+    /// True for an unknown block beside a free one and beside no surface.
+    fn is_left(&self, column: i32, row: i32) -> bool {
         let around = (-1..=1).flat_map(|down| (-1..=1).map(move |across| (across, down)));
         self.get(column, row) == Block::Unknown
-            && !self.is_closed(column, row)
             && [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().any(|(x, y)| self.get(column + x, row + y) == Block::Free)
             && !around.into_iter().any(|(x, y)| self.get(column + x, row + y) == Block::Blocked)
     }
@@ -112,6 +116,13 @@ impl Frontier {
             columns.filter(|&column| self.get(column, row) == Block::Unknown).count()
         });
         u32::try_from(count.sum::<usize>()).unwrap_or(u32::MAX)
+    }
+
+    /// The unknown blocks beside free ones and beside no surface, in the order of rows. Closed ones are among them.
+    pub(super) fn left(&self) -> impl Iterator<Item = (i32, i32)> + '_ {
+        let side = i32::try_from(self.side).unwrap_or(0);
+        let all = (0..side).flat_map(move |row| (0..side).map(move |column| (column, row)));
+        all.filter(|(column, row)| self.is_left(*column, *row))
     }
 
     /// Area (m²) of the frontier in the last whole pass. `None` before the first one has ended.

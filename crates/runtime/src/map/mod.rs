@@ -3,6 +3,7 @@
 //! Objects are taken as static, and poses as known up to a bound. `docs/map.md` of the repository derives the margins.
 
 mod bits;
+mod cell_span;
 mod cells;
 mod clearance;
 mod contour_ends;
@@ -25,6 +26,7 @@ mod shaft_sweep;
 mod targets;
 mod touch_map;
 
+pub use cell_span::CellSpan;
 pub use cells::Cell;
 pub use clearance::Ground;
 pub use contour_ends::{ContourEnd, EndKind};

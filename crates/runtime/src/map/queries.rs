@@ -2,11 +2,13 @@
 
 use crate::geometry::{Point2, Pose, Vector2};
 
+use super::cell_span::CellSpan;
 use super::cells::Cell;
 use super::clearance::{self, Ground};
 use super::contour_ends::ContourEnd;
 use super::contours::ContourPoint;
 use super::first_touch::FirstTouch;
+use super::frontier::{BLOCK, Frontier};
 use super::route::{RouteStatus, RouteStep};
 use super::route_follow::RouteMotion;
 use super::shaft_contact::ShaftContact;
@@ -133,6 +135,34 @@ impl Map {
     /// The centres (m, world frame) of the cells that are proved free, row by row.
     pub fn free_cells(&self) -> impl Iterator<Item = Point2> + '_ {
         self.cells.free.set().map(|(column, row)| self.cells.grid.centre(column, row))
+    }
+
+    /// The cells that are proved free, as rectangles of a cell's height. Each is as long as possible.
+    pub fn free_spans(&self) -> impl Iterator<Item = CellSpan> + '_ {
+        self.cells.free.spans().map(|span| CellSpan::new(self.cells.grid, span))
+    }
+
+    /// The cells that were blocked, as rectangles of a cell's height. Some of them may have been proved free later.
+    pub fn blocked_spans(&self) -> impl Iterator<Item = CellSpan> + '_ {
+        self.cells.blocked.spans().map(|span| CellSpan::new(self.cells.grid, span))
+    }
+
+    /// Side (m) of a block of [unknown ground](Self::unknown_blocks).
+    #[must_use]
+    pub fn block_size(&self) -> f64 {
+        BLOCK as f64 * self.cells.grid.cell
+    }
+
+    /// Side of a cell (m).
+    #[must_use]
+    pub fn cell_size(&self) -> f64 {
+        self.cells.grid.cell
+    }
+
+    /// The middles (m, world frame) of the blocks of unknown ground beside free ground, in the order of rows. Other than for the
+    /// [unknown area](Self::unknown_area), ground whose targets have failed counts.
+    pub fn unknown_blocks(&self) -> impl Iterator<Item = Point2> + '_ {
+        self.frontier.left().map(|block| Frontier::centre(self.cells.grid, block))
     }
 
     /// The recorded points of surfaces. The points of a piece are in order.

@@ -12,11 +12,14 @@ const COMPLETION: Expectation = Expectation::Outcome(Outcome::Completed);
 /// The smallest shares of an outline and of a tunnel's walls that are traced in a scenario without `expect`.
 const TRACED: (f64, f64) = (0.9, 0.85);
 
+/// The smallest share of what is in reach that is traced by a run with a complete map, and the largest area (m²) that it claims wrongly.
+const MAPPED: [(Metric, f64); 2] = [(Metric::CoverageInReach, 0.9), (Metric::MapWrongFreeArea, 0.0)];
+
 /// The largest permitted bound of a number of events.
 const MAX_COUNT: u32 = 1_000_000;
 
-/// The expectations of a scenario without `expect`. A run that goes around an object or through a tunnel traces it, and the
-/// body touches nothing.
+/// The expectations of a scenario without `expect`. A run that goes around an object or through a tunnel traces it, one that
+/// completes its map has traced what is in reach, and the body touches nothing.
 pub(super) fn default(stop: Option<&Stop>) -> Vec<Expectation> {
     let mut expectations = vec![COMPLETION];
     let goals = stop.map_or([None; 2], |stop| {
@@ -25,6 +28,10 @@ pub(super) fn default(stop: Option<&Stop>) -> Vec<Expectation> {
     });
     for (metric, bound) in goals.into_iter().flatten() {
         expectations.push(Expectation::Bound { metric, bound });
+        expectations.push(Expectation::Bound { metric: Metric::Collisions, bound: 0.0 });
+    }
+    if stop.is_some_and(|stop| stop.mapped) {
+        expectations.extend(MAPPED.map(|(metric, bound)| Expectation::Bound { metric, bound }));
         expectations.push(Expectation::Bound { metric: Metric::Collisions, bound: 0.0 });
     }
     expectations

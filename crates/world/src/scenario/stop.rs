@@ -31,19 +31,21 @@ pub(super) fn read(reader: &mut Reader<'_>, entry: &Entry) -> Option<PlacedStop>
     let time = fields.number(reader, &TIME);
     let mut share = f64::NAN;
     let passed = fields.set(reader, &PASSED, &mut share);
-    let entries = ["loop_closed", "reached", "succeeded", "stalled"].map(|name| fields.entry(name));
-    let [loop_closed, reached, succeeded, stalled] = entries;
+    let entries = ["loop_closed", "reached", "mapped", "succeeded", "stalled"].map(|name| fields.entry(name));
+    let [loop_closed, reached, mapped, succeeded, stalled] = entries;
     fields.finish(reader);
     // An invalid key has been reported, so the scenario is rejected anyway.
     let loop_closed = loop_closed.and_then(|entry| read_loop_closed(reader, entry, time.as_ref()));
     let reached = reached.and_then(|entry| read_reached(reader, entry, time.as_ref()));
+    let mapped = mapped.and_then(|entry| reader.flag(&entry.value)).unwrap_or_default();
     let succeeded = succeeded.and_then(|entry| reader.flag(&entry.value)).unwrap_or_default();
     let stalled = stalled.and_then(|entry| read_stalled(reader, entry));
     let time = time?;
     // A run without a goal need not make progress.
-    let has_aim = loop_closed.is_some() || reached.is_some() || passed.is_some() || succeeded;
+    let has_aim = loop_closed.is_some() || reached.is_some() || passed.is_some() || mapped || succeeded;
     let stalled = stalled.or_else(|| has_aim.then(Stalled::default));
-    let stop = Stop { time: time.value, loop_closed, reached, passed: passed.map(|_| share), succeeded, stalled };
+    let passed_share = passed.map(|_| share);
+    let stop = Stop { time: time.value, loop_closed, reached, passed: passed_share, mapped, succeeded, stalled };
     Some(PlacedStop { value: stop, time: time.span, passed })
 }
 

@@ -56,6 +56,20 @@ fn the_disk_of_the_thesis_reads_as_its_figures() {
 }
 
 #[test]
+fn a_scene_that_is_to_be_mapped_expects_a_true_map_of_what_is_in_reach() {
+    let object = "objects: [{circle: {centre: [4 m, 4 m], radius: 3 cm}}]";
+    let start = "start: {position: [0 m, 0 m], heading: 0 deg}";
+    let of = |mapped: bool| read(&format!("name: x\n{start}\nstop: {{time: 5 s, mapped: {mapped}}}\n{object}\n"));
+    let (scene, plain) = (of(true), of(false));
+    assert_eq!(scene.stop, Stop { mapped: true, stalled: Some(Stalled::default()), ..Stop::at(5.0) });
+    let bound = |metric, bound| Expectation::Bound { metric, bound };
+    let truth = [bound(Metric::CoverageInReach, 0.9), bound(Metric::MapWrongFreeArea, 0.0)];
+    let completed = [Expectation::Outcome(Outcome::Completed)];
+    assert_eq!(scene.expect, [&completed[..], &truth, &[bound(Metric::Collisions, 0.0)]].concat());
+    assert_eq!((plain.stop, plain.expect), (Stop::at(5.0), completed.to_vec()));
+}
+
+#[test]
 fn every_kind_of_object_is_the_contour_of_its_name() {
     let centre = "centre: [40 cm, 40 cm]";
     let area = |object: &str| with_object(object).outline().area();

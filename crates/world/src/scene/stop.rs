@@ -4,8 +4,8 @@ use crate::geometry::{Point2, TunnelAxis};
 
 /// The stop condition of a run.
 ///
-/// With [`loop_closed`](Self::loop_closed), [`reached`](Self::reached) or [`passed`](Self::passed), a run completes as soon as
-/// one of them holds. A policy can complete it by a success, too. With one of them or with [`succeeded`](Self::succeeded), a
+/// With [`loop_closed`](Self::loop_closed), [`reached`](Self::reached), [`passed`](Self::passed) or [`mapped`](Self::mapped), a run
+/// completes as soon as one of them holds. A policy can complete it by a success, too. With one of them or with [`succeeded`](Self::succeeded), a
 /// run times out at [`time`](Self::time). Otherwise it completes at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
@@ -18,6 +18,8 @@ pub struct Stop {
     /// The share of a tunnel's axis (0 to 1) along which the platform's centre of mass has to remain between the walls, if
     /// there is such a condition.
     pub passed: Option<f64>,
+    /// True if the map of the policy has to be complete.
+    pub mapped: bool,
     /// True if the policy has to succeed.
     pub succeeded: bool,
     /// The condition for ending a run without progress; `None` to disable it.
@@ -28,7 +30,7 @@ impl Stop {
     /// The end at a time (simulated s), without further conditions.
     #[must_use]
     pub fn at(time: f64) -> Self {
-        Self { time, loop_closed: None, reached: None, passed: None, succeeded: false, stalled: None }
+        Self { time, loop_closed: None, reached: None, passed: None, mapped: false, succeeded: false, stalled: None }
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::figure::{figure, namespaced};
 use crate::report::number::millimetres;
-use crate::report::picture::{PlottedRun, colour_of, histogram, plotted, state_band};
+use crate::report::picture::{PlottedRun, colour_of, growth_picture, histogram, plotted, state_band};
 use crate::report::style;
 use crate::report::tables::results::text;
 use crate::results::{Ending, LargestError, RunResult};
@@ -23,6 +23,8 @@ pub struct RunFigures {
     positions: String,
     /// Its states over time (SVG).
     band: String,
+    /// How the map grew (SVG). `None` without one.
+    growth: Option<String>,
     /// Histograms of the errors and of the times of control ticks (SVG).
     histograms: [Option<String>; 2],
     /// Position of the largest error on the picture (px). `None` if the map does not show it.
@@ -57,6 +59,7 @@ impl RunFigures {
         Self {
             positions: positions(&plotted, &run.trace),
             band: state_band(&run.trace),
+            growth: run.map.as_ref().map(|map| growth_picture(scene, policy, &run.trace, map)),
             histograms,
             ring: plotted.tips.iter().max_by(|a, b| a.error.total_cmp(&b.error)).and_then(|tip| tip.position),
             duration: plotted.end,
@@ -79,6 +82,7 @@ impl RunFigures {
             }
             .json(),
             band: String::new(),
+            growth: None,
             histograms: [None, None],
             ring: None,
             duration: 0.0,
@@ -238,6 +242,9 @@ pub(super) fn section(index: usize, run: &PageRun<'_>) -> Markup {
                 " · " (known(Metric::SimulatedTime, 1)) " s simulated by " (result.world)
             }
             (figure(&name, &format!("run{index}-"), &with_ring(figures), &caption, Some(&figures.positions)))
+            @if let Some(growth) = &figures.growth {
+                (figure(&format!("{name}-growth"), &format!("run{index}-growth-"), growth, &html! {}, None))
+            }
             div.histograms {
                 @for (histogram, kind) in figures.histograms.iter().zip(["errors", "ticks"]) {
                     @if let Some(svg) = histogram {

@@ -6,6 +6,7 @@ use svg::node::element::{Group, Path, Rectangle};
 use super::error_class::{COLOURS, LIMITS};
 use super::map::{self, MIDPOINT, OUTLINE, UNTRACED, axis_style, mark_style, pose_style};
 use super::scale::round_step;
+use super::touched::{ROUTE, TARGET};
 use crate::report::number::{mean_std, millimetres};
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
@@ -36,6 +37,8 @@ pub(super) struct ObjectEntries {
     pub(super) untraced: bool,
     /// True if it is a tunnel with an axis.
     pub(super) axis: bool,
+    /// True if there is a map by touch.
+    pub(super) touched: bool,
 }
 
 /// The column beside the map in construction.
@@ -63,6 +66,7 @@ impl Legend {
         legend.estimates();
         legend.platform(trace);
         legend.marks(trace);
+        legend.touched(object);
         legend.figures(trace, score);
         legend.scale_bar(scale);
         legend.group
@@ -139,6 +143,26 @@ impl Legend {
             diamond.diamond((0.5 * (from + to), y), map::MARK);
             self.entry(mark_style(diamond, mark), meaning);
         }
+    }
+
+    fn touched(&mut self, object: ObjectEntries) {
+        if !object.touched {
+            return;
+        }
+        self.y += GAP;
+        self.heading("Map by touch, at the end");
+        for (colour, meaning) in [(style::FREE_GROUND, "proved free"), (style::BLOCKED_GROUND, "blocked")] {
+            let mut ground = Outline::default();
+            ground.polyline(self.mark());
+            self.entry(ground.stroked(colour, UNTRACED), meaning);
+        }
+        let mut target = Outline::default();
+        let [(from, y), (to, _)] = self.mark();
+        target.diamond((0.5 * (from + to), y), TARGET);
+        self.entry(target.stroked(style::ROUTE, ROUTE), "next target");
+        let mut route = Outline::default();
+        route.polyline(self.mark());
+        self.entry(route.stroked(style::ROUTE, ROUTE), "route");
     }
 
     fn figures(&mut self, trace: &Trace, score: &Score) {

@@ -10,9 +10,10 @@ use super::Untraced;
 use super::error_class::{COLOURS, class};
 use super::scale::Scale;
 use super::shaft::shaft_body;
+use super::touched::layer;
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, line, px, text};
-use crate::run::{TickRecord, Trace};
+use crate::run::{RunMap, TickRecord, Trace};
 use crate::score::{Tip, mark_positions, midpoints};
 use vibrissa_runtime::machine::Mark;
 use vibrissa_runtime::rig::Rig;
@@ -97,7 +98,14 @@ impl Map {
     }
 
     /// The panel with its content.
-    pub(super) fn draw(&self, scene: &Scene, trace: &Trace, untraced: &[Untraced<'_>], tips: &[Tip]) -> Group {
+    pub(super) fn draw(
+        &self,
+        scene: &Scene,
+        trace: &Trace,
+        touched: Option<&RunMap>,
+        untraced: &[Untraced<'_>],
+        tips: &[Tip],
+    ) -> Group {
         let frame = || {
             Rectangle::new()
                 .set("x", px(self.x.positions.0))
@@ -108,6 +116,8 @@ impl Map {
         let mut inside = Group::new().set("clip-path", "url(#map)");
         let solids = || scene.solids.iter().map(|solid| self.outline(solid.outline()));
         inside = solids().fold(inside, |inside, solid| inside.add(solid.filled(style::SOLID)));
+        // Over the solids, so that ground that is claimed wrongly is seen.
+        inside = touched.map(|map| layer(self, map)).into_iter().fold(inside, Group::add);
         for Untraced { contour, stretches } in untraced {
             inside = inside.add(self.stretches(contour, stretches).stroked(style::UNTRACED, UNTRACED));
         }
@@ -148,6 +158,11 @@ impl Map {
             .add(self.axes())
             .add(inside)
             .add(frame().set("fill", "none").set("stroke", style::GREY))
+    }
+
+    /// The left and the right side, and the top and the bottom (px).
+    pub(super) fn sides(&self) -> [(f64, f64); 2] {
+        [self.x.positions, (self.y.positions.1, self.y.positions.0)]
     }
 
     pub(super) fn position(&self, point: Point2) -> (f64, f64) {

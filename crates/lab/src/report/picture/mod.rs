@@ -3,6 +3,7 @@
 mod curve;
 mod error_class;
 mod front;
+mod growth;
 mod histogram;
 mod legend;
 mod map;
@@ -14,9 +15,11 @@ mod shaft;
 mod state_band;
 mod strip;
 mod timeline;
+mod touched;
 
 pub(super) use curve::{Axis, Curve, curve_picture};
 pub(super) use error_class::colour_of;
+pub use growth::growth_picture;
 pub(super) use histogram::histogram;
 pub use pareto::pareto_picture;
 pub(super) use plotted::PlottedRun;
@@ -54,6 +57,8 @@ const MAP_HEIGHT: (f64, f64) = (560.0, 820.0);
 const MARKS_HEIGHT: f64 = 110.0;
 /// Additional height of the legend if there is a tunnel (px).
 const TUNNEL_HEIGHT: f64 = 66.0;
+/// Additional height of the legend if there is a map by touch (px).
+const TOUCHED_HEIGHT: f64 = 127.0;
 /// Left side of the map and the strips, and right side of the picture's content (px).
 const SIDES: (f64, f64) = (66.0, 1170.0);
 /// Left side of the legend (px).
@@ -65,7 +70,7 @@ const LINE: usize = 130;
 ///
 /// The upper part shows the scene from above: the exact outlines, the tip estimates, the path of the platform and some
 /// of its poses. Whiskers are bent according to their base angles and tips. The colour of an estimate is the class of
-/// its error. The classes are equal in all pictures. In a tunnel, its axis is dashed, and the estimated midpoints are dots. The lower part shows state, error and base angles over time. The
+/// its error. The classes are equal in all pictures. The free and the blocked ground of a map by touch are areas. In a tunnel, its axis is dashed, and the estimated midpoints are dots. The lower part shows state, error and base angles over time. The
 /// appearance of a state depends only on the machine.
 ///
 /// The same run gives the same picture, byte for byte. Nothing in it depends on the clock.
@@ -82,7 +87,7 @@ pub fn frame(scene: &Scene, trace: &Trace) -> String {
     let corner = (FRAME_MARGIN, FRAME_MARGIN);
     let map = Map::new(scene, trace, corner, width, (height, height)).without_poses_between();
     let tips = tips(trace, &scene.truth.surfaces, &scene.rig);
-    style::sheet(FRAME, &scene.name).add(map.draw(scene, trace, &untraced(scene, trace), &tips)).to_string()
+    style::sheet(FRAME, &scene.name).add(map.draw(scene, trace, None, &untraced(scene, trace), &tips)).to_string()
 }
 
 /// The [`picture`] of a run, with the positions of its tip estimates and of its times.
@@ -97,9 +102,14 @@ pub(super) fn plotted(scene: &Scene, policy: &str, run: &Run, score: &Score) -> 
     let (head, map_top) = heading(scene, policy, ending, missing.iter().chain(&run.reason));
     let marks = if trace.marks.is_empty() { 0.0 } else { MARKS_HEIGHT };
     let tunnel = if scene.truth.axes.is_empty() { 0.0 } else { TUNNEL_HEIGHT };
-    let least = MAP_HEIGHT.0 + marks + tunnel;
-    let map = Map::new(scene, trace, (SIDES.0, map_top), MAP_WIDTH, (least, MAP_HEIGHT.1));
-    let object = ObjectEntries { untraced: !untraced.is_empty(), axis: !scene.truth.axes.is_empty() };
+    let touched = if run.map.is_some() { TOUCHED_HEIGHT } else { 0.0 };
+    let least = MAP_HEIGHT.0 + marks + tunnel + touched;
+    let map = Map::new(scene, trace, (SIDES.0, map_top), MAP_WIDTH, (least, MAP_HEIGHT.1.max(least)));
+    let object = ObjectEntries {
+        untraced: !untraced.is_empty(),
+        axis: !scene.truth.axes.is_empty(),
+        touched: run.map.is_some(),
+    };
     let legend = Legend::draw((LEGEND, map_top), SIDES.1 - LEGEND, map.scale, trace, score, object);
     let strips_top = map_top + map.height + 62.0;
     let (strips, bottom) = Timeline::draw(trace, &tips, score.error.as_ref(), SIDES, strips_top);
@@ -111,7 +121,8 @@ pub(super) fn plotted(scene: &Scene, policy: &str, run: &Run, score: &Score) -> 
     for line in head {
         document = document.add(line);
     }
-    let svg = document.add(map.draw(scene, trace, &untraced, &tips)).add(legend).add(strips).to_string();
+    let svg =
+        document.add(map.draw(scene, trace, run.map.as_deref(), &untraced, &tips)).add(legend).add(strips).to_string();
     PlottedRun::new(svg, trace, &tips, &map, SIDES, (strips_top, bottom))
 }
 
