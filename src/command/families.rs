@@ -29,7 +29,7 @@ const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct FamiliesArguments {
-    /// Families to run. The default is all families
+    /// Families to run. The default is all except `shapes` and `rooms`, whose runs take long
     #[arg(value_name = "NAME")]
     names: Vec<String>,
     /// Policy, compiled machine or name of a built-in policy such as `thesis`, with a parameter `speed`. The default is `vibrissa.fsm`
@@ -139,12 +139,14 @@ fn scenes(arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
     in_parallel(&keys, arguments.jobs.threads(), draw, |_| ()).into_iter().collect()
 }
 
-/// The families with these names, each once, or all families.
+/// The families with these names, each once. Without names, all that run by default.
 fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
     if let Some(name) = names.iter().find(|name| FAMILIES.iter().all(|family| family.name != **name)) {
         return Err(Failure::NoSuchFamily { name: name.clone() });
     }
-    let is_chosen = |family: &Family| names.is_empty() || names.iter().any(|name| name == family.name);
+    let is_chosen = |family: &Family| {
+        if names.is_empty() { family.is_default } else { names.iter().any(|name| name == family.name) }
+    };
     Ok(FAMILIES.iter().copied().filter(is_chosen).collect())
 }
 

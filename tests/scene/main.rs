@@ -7,7 +7,9 @@ mod family;
 mod geometry;
 #[cfg(feature = "outlines")]
 mod outline;
+mod rooms;
 mod scenario;
+mod shapes;
 #[path = "../common/snapshots.rs"]
 mod snapshots;
 mod solid;

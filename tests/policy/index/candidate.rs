@@ -30,7 +30,7 @@ fn a_property_offers_families_and_their_parameters() {
         |text: &str| labels(&format!("machine m\nparam speed = 1 m/s\ninitial S\nstate S {{ stop }}\nproperty {text}"));
     assert_eq!(property("\"title\" \u{a7}"), ["over"]);
     let families = property("\"title\" over \u{a7}");
-    assert!(families.len() == 8 && families.contains(&"convex-corner".to_owned()), "{families:?}");
+    assert!(families.len() == 10 && families.contains(&"convex-corner".to_owned()), "{families:?}");
     assert_eq!(property("\"title\" over convex-co\u{a7}"), families);
     for place in ["(\u{a7}", "(angle in 30 deg .. 60 deg, \u{a7}", "(an\u{a7}) {\n  expect run.passed\n}"] {
         let parameters = property(&format!("\"title\" over convex-corner{place}"));

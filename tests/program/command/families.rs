@@ -17,6 +17,20 @@ fn a_given_parameter_is_the_same_in_all_scenes() {
 }
 
 #[test]
+fn families_with_long_runs_run_only_by_name() {
+    let printed = |names: &[&str]| {
+        let output = vibrissa(&[&["families"], names, &["--count", "1", "--print"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let lines = stdout(&output);
+        let families = lines.lines().filter_map(|line| line.strip_prefix("# trial 0 of ")?.split(',').next());
+        families.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(printed(&["shapes", "rooms"]), ["shapes", "rooms"]);
+    let default = printed(&[]);
+    assert!(default.len() == 8 && default.iter().all(|name| name != "shapes" && name != "rooms"), "{default:?}");
+}
+
+#[test]
 fn a_value_that_a_family_does_not_have_is_unusable() {
     for (given, told) in [
         ("angel=40 deg", "there is no such parameter; there are start_x"),

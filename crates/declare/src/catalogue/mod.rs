@@ -6,6 +6,8 @@ pub mod convex_corner;
 mod entry;
 mod parameter;
 pub mod polygon;
+pub mod rooms;
+pub mod shapes;
 pub mod smooth_curve;
 pub mod thin_wall;
 pub mod tunnel_mouth;
@@ -16,7 +18,7 @@ pub use entry::Entry;
 pub use parameter::Parameter;
 
 /// The entries of all families.
-pub static ENTRIES: [&Entry; 8] = [
+pub static ENTRIES: [&Entry; 10] = [
     &convex_corner::ENTRY,
     &concave_corner::ENTRY,
     &smooth_curve::ENTRY,
@@ -25,6 +27,8 @@ pub static ENTRIES: [&Entry; 8] = [
     &two_objects::ENTRY,
     &zigzag_tunnel::ENTRY,
     &tunnel_mouth::ENTRY,
+    &shapes::ENTRY,
+    &rooms::ENTRY,
 ];
 
 /// The entry of a family.

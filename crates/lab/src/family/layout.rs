@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::outline::turn;
-use vibrissa_world::geometry::{Harmonic, Point2, Pose, Vector2};
+use super::outline::{turn, turning_angle};
+use vibrissa_world::geometry::{Contour, Harmonic, Piece, Point2, Pose, Vector2};
 
 /// A scene without its speed and without the deviation of its start.
 #[derive(Debug, Clone)]
@@ -37,6 +37,19 @@ pub(super) enum Aim {
     Loop,
     /// The passage through a tunnel.
     Through,
+    /// All that whiskers reach is traced.
+    Everything,
+}
+
+impl Aim {
+    /// The conditions that end a run, and the expectations of tracing, as YAML. `passage` is the share of a tunnel's axis.
+    fn text(self, passage: &str) -> (String, String) {
+        match self {
+            Self::Loop => ("loop_closed: {within: 5 mm, after: 5 s}".to_owned(), "object_coverage: 95 %".to_owned()),
+            Self::Through => (format!("passed: {passage}"), format!("passage: {passage}, wall_coverage: 85 %")),
+            Self::Everything => ("succeeded: true".to_owned(), "coverage_in_reach: 95 %".to_owned()),
+        }
+    }
 }
 
 /// The largest error of a recorded tip (m) in a run that passes. It exceeds the errors of every contact estimator in its
@@ -76,14 +89,7 @@ impl Layout {
     pub(super) fn text(&self, name: &str, seed: u64, speed: f64) -> String {
         let time = (FIXED_TIME + PATH_FACTOR * (APPROACH + self.path_length) / speed).ceil();
         let passage = format!("{:.2} %", 100.0 * (1.0 - (AT_MOUTH + AT_END) / self.path_length));
-        let aim = match self.aim {
-            Aim::Loop => "loop_closed: {within: 5 mm, after: 5 s}".to_owned(),
-            Aim::Through => format!("passed: {passage}"),
-        };
-        let expect = match self.aim {
-            Aim::Loop => "object_coverage: 95 %".to_owned(),
-            Aim::Through => format!("passage: {passage}, wall_coverage: 85 %"),
-        };
+        let (aim, expect) = self.aim.text(&passage);
         let mut text = format!(
             "name: {name}\ndescription: {}\nseed: {seed}\nrig: {{{}{}}}\nobjects:\n",
             self.about, self.rig.whiskers, self.rig.physics
@@ -161,6 +167,28 @@ pub(super) fn rounded_polygon(corners: &[Vector2], radii: &[f64], centre: Point2
     }
     let (first, out) = (centre + corners[0], turn(corners, 0).1);
     let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, out.y.atan2(out.x));
+    format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
+}
+
+/// A closed outline of segments and arcs as an object. Errors of a path accumulate, so its numbers keep all digits.
+pub(super) fn outline(outline: &Contour) -> String {
+    let pieces = outline.pieces();
+    let mut moves = Vec::new();
+    let mut heading: Option<Vector2> = None;
+    for (index, piece) in pieces.iter().enumerate() {
+        if let Some(before) = heading {
+            moves.push(format!("{{turn: {} rad}}", turning_angle(before, piece.tangent_at(0.0))));
+        }
+        match piece {
+            // A closed path has its last side without a move.
+            Piece::Segment(_) if index + 1 == pieces.len() => {}
+            Piece::Segment(side) => moves.push(format!("{{straight: {} m}}", side.length())),
+            Piece::Arc(arc) => moves.push(format!("{{arc: {{radius: {} m, angle: {} rad}}}}", arc.radius, arc.sweep)),
+        }
+        heading = Some(piece.tangent_at(piece.length()));
+    }
+    let (first, along) = (outline.point_at(0.0), outline.tangent_at(0.0));
+    let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, along.y.atan2(along.x));
     format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
 }
 

@@ -4,14 +4,20 @@
 //! itself. It depends only on the family's name, the seed, its number, and explicit values of parameters.
 
 mod concave_corner;
+mod convex;
 mod convex_corner;
 mod draw;
+mod feature;
+mod floor;
+mod furnished;
 mod layout;
 mod outline;
 mod polygon;
 mod position;
+mod rooms;
 mod run;
 mod sampler;
+mod shapes;
 mod smooth_curve;
 mod tally;
 mod thin_wall;
@@ -38,12 +44,19 @@ pub struct Family {
     pub about: &'static str,
     /// Its parameters. Together they determine a scene.
     pub parameters: &'static [Parameter],
+    /// True if `vibrissa families` without names runs it.
+    pub is_default: bool,
     lay: fn(&mut Sampler<'_>) -> Layout,
 }
 
 impl Family {
     const fn new(entry: &Entry, lay: fn(&mut Sampler<'_>) -> Layout) -> Self {
-        Self { name: entry.name, about: entry.about, parameters: entry.parameters, lay }
+        Self { name: entry.name, about: entry.about, parameters: entry.parameters, is_default: true, lay }
+    }
+
+    /// The same family, which runs only where it is named. Its runs take minutes of computation each.
+    const fn by_name(self) -> Self {
+        Self { is_default: false, ..self }
     }
 
     /// The family with this name.
@@ -54,7 +67,7 @@ impl Family {
 }
 
 /// All families.
-pub const FAMILIES: [Family; 8] = [
+pub const FAMILIES: [Family; 10] = [
     Family::new(&catalogue::convex_corner::ENTRY, convex_corner::lay),
     Family::new(&catalogue::concave_corner::ENTRY, concave_corner::lay),
     Family::new(&catalogue::smooth_curve::ENTRY, smooth_curve::lay),
@@ -63,4 +76,6 @@ pub const FAMILIES: [Family; 8] = [
     Family::new(&catalogue::two_objects::ENTRY, two_objects::lay),
     Family::new(&catalogue::zigzag_tunnel::ENTRY, zigzag_tunnel::lay),
     Family::new(&catalogue::tunnel_mouth::ENTRY, tunnel_mouth::lay),
+    Family::new(&catalogue::shapes::ENTRY, shapes::lay).by_name(),
+    Family::new(&catalogue::rooms::ENTRY, rooms::lay).by_name(),
 ];

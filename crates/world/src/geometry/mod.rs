@@ -12,6 +12,7 @@ mod bounding_box;
 mod contour;
 mod contour_set;
 mod corner;
+mod difference;
 mod distance;
 mod elliptic_arc;
 mod error;

@@ -14,9 +14,9 @@ const TOLERANCE: f64 = 2e-8;
 /// A change of the distance (m) that keeps a parallel contour within the tolerance.
 const NUDGE: f64 = 0.5 * TOLERANCE;
 
-/// The scale for the offset library. The library compares squared lengths with a constant 1e-8. In millimetres, this is
+/// The scale for the library of offsets and differences. The library compares squared lengths with a constant 1e-8. In millimetres, this is
 /// far below the resolution of a contour.
-const PER_METRE: f64 = 1e3;
+pub(super) const PER_METRE: f64 = 1e3;
 
 /// The reason why there is no parallel contour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -133,7 +133,7 @@ impl Contour {
     }
 }
 
-fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
+pub(super) fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
     let mut polyline = if contour.closed { Polyline::new_closed() } else { Polyline::new() };
     let mut add = |point: Point2, bulge| {
         let point = (point - origin) * PER_METRE;
@@ -190,7 +190,7 @@ fn stitched(found: Vec<Polyline>) -> Vec<Polyline> {
     whole
 }
 
-fn to_pieces(polyline: &Polyline, origin: Point2) -> Vec<Piece> {
+pub(super) fn to_pieces(polyline: &Polyline, origin: Point2) -> Vec<Piece> {
     let cleaned = polyline.remove_repeat_pos(MIN_PIECE_LENGTH * PER_METRE);
     let polyline = cleaned.as_ref().unwrap_or(polyline);
     let mut pieces: Vec<Piece> = Vec::with_capacity(polyline.vertex_count());
