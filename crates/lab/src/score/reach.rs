@@ -38,7 +38,7 @@ const OUTSIDE_OFFSET: f64 = 1e-5;
 /// A tip can touch a point only under two conditions. The platform has a pose in which its footprint is clear of all
 /// solids. The shortest path through free space from the base of a whisker to the point is no longer than the whisker,
 /// because a bent shaft is never shorter than this path. If objects enclose the start, the platform can also move to the pose:
-/// the disc in its footprint passes every gap on the way. Other conditions are ignored: whether the footprint passes them, how far
+/// the disc in its footprint passes every gap on its path. Other conditions are ignored: whether the footprint passes them, how far
 /// a shaft can bend, and where the other whiskers are. The result is therefore a lower bound.
 ///
 /// Poses are sampled on a grid. Footprints are reduced by the distance between neighbouring poses, some 4 mm for the
