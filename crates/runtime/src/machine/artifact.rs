@@ -8,7 +8,7 @@
 //! | length | an [`Artifact`] in postcard's wire format |
 //! | 32 | SHA-256 of all preceding bytes |
 //!
-//! An artifact has exactly one encoding. The reader trusts nothing. The checksum detects damage, but not manipulation,
+//! An artifact has exactly one encoding in a format. The reader trusts nothing. The checksum detects damage, but not manipulation,
 //! so everything that the execution relies on is verified afterwards.
 
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,9 @@ pub const MAGIC: [u8; 8] = *b"\x89FSM\r\n\x1a\n";
 /// Number of the format. It covers the layout of [`Artifact`] and of everything in it, including the order of
 /// operations and quantities.
 pub const FORMAT: u32 = 13;
+/// The oldest format that is read. Formats since then have only added operations behind the known ones, so machines on robots
+/// and in recordings stay valid.
+const OLDEST_FORMAT: u32 = 12;
 /// Maximum size of an artifact in bytes. The largest program of the compiler has less than half of them.
 pub const ARTIFACT_LIMIT: usize = 4 << 20;
 
@@ -67,7 +70,8 @@ pub enum ArtifactError {
     NotAnArtifact,
     /// The artifact has another format.
     #[error(
-        "the machine is in format {found}, this program reads format {FORMAT}; compile the policy with this program"
+        "the machine is in format {found}, this program reads formats {OLDEST_FORMAT} to {FORMAT}; compile the policy with this \
+         program"
     )]
     Format {
         /// Number of that format.
@@ -138,7 +142,7 @@ impl Artifact {
             return Err(ArtifactError::TooLarge);
         }
         let (format, rest) = number(behind_magic)?;
-        if format != FORMAT {
+        if !(OLDEST_FORMAT..=FORMAT).contains(&format) {
             return Err(ArtifactError::Format { found: format });
         }
         let (length, rest) = number(rest)?;

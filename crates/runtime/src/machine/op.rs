@@ -117,12 +117,6 @@ pub enum Op {
     LoopClosed { to: Register, whisker: Register, a: Register, b: Register },
     /// `to = a vector of a contour at the distance a behind its end`
     ContourAt { to: Wide, contour: Register, a: Register, quantity: ContourVector },
-    /// `to = a quantity of the map`
-    Map { to: Register, quantity: MapScalar },
-    /// `to = a vector of the map`
-    MapVector { to: Wide, quantity: MapVector },
-    /// `to = true if a statement holds in the map` for the position a and the heading b
-    MapHolds { to: Register, a: Wide, b: Register, question: MapQuestion },
     /// `to = a through a first-order low-pass filter with the cutoff b` (Hz). Its memory is three registers.
     LowPass { to: Register, a: Register, b: Register, memory: Register },
     /// `to = output of a PID controller` for the error `a`. `gains` are four registers: p, i, d and the output limit.
@@ -146,12 +140,6 @@ pub enum Op {
     RecordPosition { contour: u16, a: Wide },
     /// Records a mark of a whisker.
     Mark { whisker: Register, mark: Mark },
-    /// Sets the goal of the map's route to the position `a` and the heading `b`.
-    GoTo { a: Wide, b: Register },
-    /// Tells the map that its next target could not be touched.
-    GiveUp,
-    /// Tells the map that something was felt at the position `a`, with free ground in the direction `b`.
-    Felt { a: Wide, b: Wide },
     /// Moves the body and rotates it to a heading.
     SteerBodyFacing { along: Wide, speed: Register, heading: Register },
     /// Moves the body and rotates it at a yaw rate.
@@ -164,4 +152,16 @@ pub enum Op {
     Hold,
     /// Stops the platform.
     Stop,
+    /// `to = a quantity of the map`
+    Map { to: Register, quantity: MapScalar },
+    /// `to = a vector of the map`
+    MapVector { to: Wide, quantity: MapVector },
+    /// `to = true if a statement holds in the map` for the position a and the heading b
+    MapHolds { to: Register, a: Wide, b: Register, question: MapQuestion },
+    /// Sets the goal of the map's route to the position `a` and the heading `b`.
+    GoTo { a: Wide, b: Register },
+    /// Tells the map that its next target could not be touched.
+    GiveUp,
+    /// Tells the map that something was felt at the position `a`, with free ground in the direction `b`.
+    Felt { a: Wide, b: Wide },
 }

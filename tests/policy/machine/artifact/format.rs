@@ -3,7 +3,11 @@
 use std::fmt::Debug;
 
 use serde::de::DeserializeOwned;
-use vibrissa_runtime::machine::{BodyScalar, ContourVector, FORMAT, Op, WhiskerScalar, WhiskerVector};
+use sha2::{Digest, Sha256};
+use vibrissa_runtime::machine::{
+    Artifact, ArtifactError, BodyScalar, ContourVector, FORMAT, MapQuestion, MapScalar, MapVector, Op, WhiskerScalar,
+    WhiskerVector,
+};
 
 use crate::snapshots::snapshots;
 
@@ -59,7 +63,28 @@ fn the_numbers_of_operations_and_quantities_belong_to_the_format() {
         numbered::<WhiskerScalar>(),
         numbered::<WhiskerVector>(),
         numbered::<ContourVector>(),
+        numbered::<MapScalar>(),
+        numbered::<MapVector>(),
+        numbered::<MapQuestion>(),
     ];
     let text = lists.map(|list| list.join("\n")).join("\n\n");
     snapshots("artifact").bind(|| insta::assert_snapshot!(format!("format_{FORMAT}"), text));
+}
+
+/// Format 13 has only added operations behind those of format 12.
+#[test]
+fn a_machine_of_the_format_before_is_the_same_machine() {
+    let artifact = policies::artifact("small.fsm", SMALL);
+    let in_format = |format: u32| {
+        let mut bytes = artifact.to_bytes().unwrap();
+        bytes[8..12].copy_from_slice(&format.to_le_bytes());
+        let content = bytes.len() - 32;
+        let checksum = Sha256::digest(&bytes[..content]);
+        bytes[content..].copy_from_slice(&checksum);
+        Artifact::from_bytes(&bytes)
+    };
+    assert_eq!(in_format(12).unwrap().to_bytes(), artifact.to_bytes());
+    for format in [11, FORMAT + 1] {
+        assert!(matches!(in_format(format), Err(ArtifactError::Format { found }) if found == format), "{format}");
+    }
 }
