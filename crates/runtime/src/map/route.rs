@@ -197,7 +197,8 @@ mod tests {
     use crate::map::lattice::{MOVES, Node};
     use crate::rig::Rig;
 
-    const PACE: Pace = Pace { proved: (0.1, 0.8), unknown: (0.03, 0.3), near_surface: (0.0, 0.0) };
+    const PACE: Pace =
+        Pace { proved: (0.1, 0.8), unknown: (0.03, 0.3), near_surface: (0.0, 0.0), has_guarded_nose: false };
 
     fn room(walls: &[[f64; 4]]) -> (Cells, NearSurfaces) {
         let grid = Grid::new(1.5, 4e-3);

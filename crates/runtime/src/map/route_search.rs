@@ -38,13 +38,15 @@ pub struct Pace {
     pub unknown: (f64, f64),
     /// In unknown ground near known surfaces. 0 if no route may lead there.
     pub near_surface: (f64, f64),
+    /// True if whiskers before the nose feel what is ahead of the body. It then enters unproved ground with the nose ahead.
+    pub has_guarded_nose: bool,
 }
 
 impl Default for Pace {
     /// A tenth of a metre a second where nothing can be met, a third of it where the body must be ready to stop, and no path near
     /// surfaces, which only a rig with whiskers before its nose can take.
     fn default() -> Self {
-        Self { proved: (0.1, 0.8), unknown: (0.03, 0.6), near_surface: (0.0, 0.0) }
+        Self { proved: (0.1, 0.8), unknown: (0.03, 0.3), near_surface: (0.0, 0.0), has_guarded_nose: false }
     }
 }
 
@@ -191,7 +193,9 @@ impl RouteSearch {
                 .pace
                 .cost(ground, size)
                 .or_else(|| Pace { near_surface: self.pace.unknown, ..self.pace }.cost(ground, size));
-            let is_guarded = ground == Ground::Proved || leads_ahead(start.heading, pose.position - start.position);
+            let is_guarded = ground == Ground::Proved
+                || !self.pace.has_guarded_nose
+                || leads_ahead(start.heading, pose.position - start.position);
             if let (Some(cost), Some(_)) = (cost, lattice.nearest(cells.grid, pose)) {
                 let cost = if is_guarded { cost } else { cost + UNGUARDED };
                 self.reach(lattice.key(node), cost, MOVES, self.estimate(node));
@@ -230,7 +234,8 @@ impl RouteSearch {
                 }
                 let ground = lattice.ground(cells, near, node, step);
                 // Unproved ground is entered with the nose ahead, unless there is no other way.
-                let is_guarded = ground == Ground::Proved || Lattice::is_ahead(node, step);
+                let is_guarded =
+                    ground == Ground::Proved || !self.pace.has_guarded_nose || Lattice::is_ahead(node, step);
                 let extra = if is_guarded { 0 } else { UNGUARDED };
                 if let Some(more) = self.pace.cost(ground, lattice.size(cells.grid, step)) {
                     let estimate = self.estimate(next);
@@ -254,7 +259,9 @@ impl RouteSearch {
             // A goal may be near a surface, because surfaces are what whiskers go to.
             match lattice.ground_between(cells, near, pose, self.goal) {
                 Ground::Proved => true,
-                Ground::Unknown | Ground::NearSurface => leads_ahead(pose.heading, self.goal.position - pose.position),
+                Ground::Unknown | Ground::NearSurface => {
+                    !self.pace.has_guarded_nose || leads_ahead(pose.heading, self.goal.position - pose.position)
+                }
                 Ground::Blocked => false,
             }
         }

@@ -92,8 +92,14 @@ impl MapSettings {
             ahead.fold((0.0, 0.0), |(right, left), tip| (math::min(right, tip.y), math::max(left, tip.y)));
         let pace = Pace::default();
         let is_guarded = math::min(left, -right) >= 0.5 * platform.nose_width;
-        let near_surface = if is_guarded { pace.unknown } else { pace.near_surface };
-        Self { pace: Pace { near_surface, ..pace }, ..Self::default() }
+        // Whiskers on both sides of the nose also feel what it turns to.
+        let guarded = (pace.unknown.0, 2.0 * pace.unknown.1);
+        let pace = if is_guarded {
+            Pace { unknown: guarded, near_surface: guarded, has_guarded_nose: true, ..pace }
+        } else {
+            pace
+        };
+        Self { pace, ..Self::default() }
     }
 }
 

@@ -48,16 +48,20 @@ pub struct Target {
 /// before an end.
 const BEFORE: f64 = 8e-3;
 const OVERLAP: f64 = 12e-3;
-/// Distance (m) of the nose before unknown ground that the body will drive into.
+/// Distance (m) of the nose before unknown ground that the body will drive into, and by which a tip enters unknown ground.
 const BEFORE_UNKNOWN: f64 = 30e-3;
+const BEYOND: f64 = 10e-3;
 /// Time (s) that any target takes besides the path.
 const BASE_TIME: f64 = 2.0;
 /// Factor by which the value of another target of the same kind must be larger.
 const BETTER: f64 = 1.5;
 /// Failures after which an end is closed.
 const FAILURES: u8 = 3;
-/// Most blocks of the frontier whose poses are tried in a tick.
-const TRIED: usize = 4;
+/// Most blocks of the frontier whose poses are tried in a tick, also with a guarded nose, where a block has one pose. Then the headings for
+/// each whisker.
+const TRIED: usize = 1;
+const TRIED_AHEAD: usize = 4;
+const HEADINGS: usize = 8;
 /// Positions where shafts have touched that are remembered, and their least distance (m).
 const PLACES: usize = 64;
 const APART: f64 = 10e-3;
@@ -192,16 +196,16 @@ impl Targets {
     /// Continues the pass through all possible targets.
     pub(super) fn update(&mut self, known: Known<'_>, frontier: &mut Frontier) {
         self.value_ends(known, frontier);
+        let most = if self.pace.has_guarded_nose { TRIED_AHEAD } else { TRIED };
         let mut tried = 0;
         let mut best = self.best.take();
         let is_end = frontier.update(known.cells, |frontier, block| {
             let place = Frontier::centre(known.cells.grid, block);
             let seen = f64::from(frontier.unknown_around(block, self.reach)) * math::square(self.block);
-            let way = (place - known.body.position).norm() / self.pace.proved.0
-                + (place - known.cells.grid.middle()).norm() / self.pace.unknown.0;
+            let way = (place - known.body.position).norm() / self.pace.proved.0 + self.outwards(known, place);
             let value = seen / (BASE_TIME + way);
             let is_better = best.is_none_or(|best: Target| best.kind == TargetKind::Frontier && value > best.value);
-            if is_better && tried < TRIED {
+            if is_better && tried < most {
                 tried += 1;
                 if let Some(target) = self.looking(known, frontier, block, seen) {
                     best = Some(better(best, target));
@@ -323,13 +327,34 @@ impl Targets {
             .filter(|(x, y)| frontier.get(block.0 + x, block.1 + y) == Block::Free);
         let normal = free.map(|(x, y)| Vector2::new(f64::from(x), f64::from(y))).sum::<Vector2>();
         let normal = normal.try_normalize(0.5).unwrap_or_else(|| Vector2::new(1.0, 0.0));
-        // The nose is before the block, so that the body drives into the unknown ground.
-        let pose = Pose {
-            position: place + (self.nose + BEFORE_UNKNOWN) * normal,
-            heading: math::atan2(-normal.y, -normal.x),
-        };
-        let whisker = self.whiskers.first()?.index;
-        self.rated(known, Target { kind: TargetKind::Frontier, place, normal, whisker, pose, value: seen, end: None })
+        let target =
+            |whisker, pose| Target { kind: TargetKind::Frontier, place, normal, whisker, pose, value: seen, end: None };
+        // With whiskers before its nose, the body drives into the unknown ground.
+        if self.pace.has_guarded_nose {
+            let pose = Pose {
+                position: place + (self.nose + BEFORE_UNKNOWN) * normal,
+                heading: math::atan2(-normal.y, -normal.x),
+            };
+            return self.rated(known, target(self.whiskers.first()?.index, pose));
+        }
+        // Without them, a whisker enters it.
+        let tip = place - BEYOND * normal;
+        let poses = self.whiskers.iter().flat_map(|whisker| {
+            (0..HEADINGS).map(move |index| {
+                let heading = std::f64::consts::TAU * index as f64 / HEADINGS as f64;
+                (whisker.index, with_tip(whisker, tip, heading))
+            })
+        });
+        poses
+            .filter_map(|(whisker, pose)| self.rated(known, target(whisker, pose)))
+            .max_by(|a, b| a.value.total_cmp(&b.value))
+    }
+
+    /// Time (s) by which a body with a guarded nose puts off a look far from the start, so that the known ground grows compactly. Ground
+    /// that is left behind has to be looked at later, through the unknown ground between.
+    fn outwards(&self, known: Known<'_>, place: Point2) -> f64 {
+        let out = (place - known.cells.grid.middle()).norm() / self.pace.unknown.0;
+        if self.pace.has_guarded_nose { out } else { 0.0 }
     }
 
     /// A target whose value is its newly seen area, with that over the time. `None` if its pose is blocked, or in ground near
@@ -343,12 +368,7 @@ impl Targets {
         };
         let way = (target.pose.position - known.body.position).norm() / self.pace.proved.0;
         let turn = turn_between(known.body.heading, target.pose.heading).abs() / self.pace.proved.1;
-        // Looks begin near the start, so that the known ground grows compactly. Ground that is left behind has to be looked at later,
-        // and the body then goes through the unknown ground between.
-        let out = match target.kind {
-            TargetKind::Frontier => (target.place - known.cells.grid.middle()).norm() / self.pace.unknown.0,
-            _ => 0.0,
-        };
+        let out = if target.kind == TargetKind::Frontier { self.outwards(known, target.place) } else { 0.0 };
         is_allowed.then_some(Target { value: target.value / (BASE_TIME + way + turn + out), ..target })
     }
 }
