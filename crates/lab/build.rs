@@ -6,9 +6,10 @@ use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
 
 /// The code below the commands, from this package. A package of this crate alone has only its own.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "src",
     "../declare/src",
+    "../language/grammar",
     "../language/src",
     "../mujoco/src",
     "../robot/src",

@@ -11,16 +11,17 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, ConditionOptions, Format, Jobs, Policies, WorldOptions};
 use super::output;
 use super::provenance::of_runs;
-use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
+use super::report_folder::{ReportFolder, say};
+use super::trials::{Finished, report_dead_whiskers, run_all};
 use super::values::parse_seed;
 use vibrissa_lab::built_in::SCENARIOS;
-use vibrissa_lab::load::{self, GivenMismatch, LoadError, check_noise_seed};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, check_noise_seed};
 use vibrissa_lab::report::{RunFigures, bench_page, bench_table, pooled_tips};
-use vibrissa_lab::results::{Document, Ending, Provenance, RunResult};
+use vibrissa_lab::results::{Document, Ending, RunResult};
 use vibrissa_lab::study::bench::{BenchRow, Conditions};
 use vibrissa_lab::study::compare::OlderRuns;
 use vibrissa_lab::trial::Trial;
-use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa bench --out out\n  vibrissa bench --policy mine.fsm --friction 0,0.1\n\nExit status: 0 all runs completed and no figure is worse than that of the baseline; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -62,8 +63,9 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let (trials, array) = bench_trials(&arguments.trials, &mut files)?;
     let older = arguments.against.as_deref().map(|path| older_runs(path, &mut files)).transpose()?;
-    make_directory(arguments.out.as_deref())?;
-    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &trials, &mut files)).transpose()?;
+    let pictures: Vec<String> = trials.iter().map(picture_name).collect();
+    let names = pictures.iter().cloned().chain([RESULTS.to_owned()]);
+    let report = ReportFolder::new(arguments.out.as_deref(), names, &mut files)?;
     let (conditions, trials): (Vec<_>, Vec<_>) = trials.into_iter().unzip();
     let finished = run_all(&trials, &array, arguments.jobs, |_| arguments.out.is_some())?;
     let (mut rows, mut figures) = (Vec::with_capacity(finished.len()), Vec::new());
@@ -74,23 +76,34 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
         figures.push(drawn.unwrap_or_else(RunFigures::none));
     }
     let provenance = of_runs(rows.iter().map(|row| &row.result));
-    let page = report.map(|report| report.write(&provenance, &rows, &figures, older.as_ref())).transpose()?;
+    let write = |mut report: ReportFolder| {
+        for (name, figures) in pictures.iter().zip(&figures) {
+            report.write(name, &figures.picture)?;
+        }
+        let documents = rows.iter().map(|row| serde_json::to_value(row.versioned(None)));
+        let documents = documents.collect::<Result<Vec<_>, _>>()?;
+        let changes = older.map(|older| older.changes(&documents));
+        report.write(RESULTS, output::list(&provenance, &rows)? + "\n")?;
+        report.finish(bench_page(&provenance, &rows, &figures, changes.as_ref()))
+    };
+    let page = report.map(write).transpose()?;
     output::documents(arguments.format, &provenance, &rows, || [bench_table(&rows)])?;
     if !arguments.format.json {
         output::result(pooled_tips(&rows))?;
-        if let Some(page) = page {
-            output::result(format_args!("report: {}", page.display()))?;
-        }
     }
+    say(page, arguments.format)?;
     Ok(if rows.iter().all(|row| row.passed) { Exit::Done } else { Exit::Unexpected })
 }
+
+/// The name of the file of all results.
+const RESULTS: &str = "results.json";
 
 /// Largest size of an older report in bytes. That of the bench has some hundred thousand.
 const REPORT_LIMIT: usize = 1 << 28;
 
 /// The runs of an older report: of a directory, or of a file of results.
 fn older_runs(path: &Path, files: &mut CommandFiles) -> Result<OlderRuns, Failure> {
-    let path = if path.is_dir() { path.join("results.json") } else { path.to_owned() };
+    let path = if path.is_dir() { path.join(RESULTS) } else { path.to_owned() };
     let bytes = files.read(&path, REPORT_LIMIT).map_err(LoadError::read(&path))?;
     let read = OlderRuns::read(path.display().to_string(), &String::from_utf8_lossy(&bytes));
     read.map_err(|cause| Failure::Older { path, cause })
@@ -116,13 +129,11 @@ pub(super) fn bench_trials(
                     scenario_hash.update(format!("\0{conditions}"));
                 }
                 let path = Path::new(file.path);
-                mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(path))?;
-                let world = arguments.world.of(&scene);
-                let hashes = (scenario_hash.finalize(), policy.hash.clone().finalize());
-                let inputs = inputs(path, &hashes.0, &hashes.1);
-                let trial = Trial::new(scene, Arc::new(policy.value.artifact.program.clone()));
+                let (world, scene) = (arguments.world.of(&scene), Loaded { value: scene, hash: scenario_hash });
+                let program = Arc::new(policy.value.artifact.program.clone());
+                let trial = mismatch.trial((path, scene), (&program, policy.hash.clone()), world, 0)?;
                 let seed = arguments.seed.unwrap_or(trial.seed);
-                trials.push((conditions, Trial { world, seed, inputs, ..trial }));
+                trials.push((conditions, Trial { seed, ..trial }));
             }
         }
     }
@@ -143,41 +154,8 @@ fn report_row(row: &BenchRow) {
     report_dead_whiskers(&format!("{}, {policy}", row.scene()), &row.result);
 }
 
-/// The files for a picture of every run, all results, and the page.
-struct Report {
-    pictures: Vec<Output>,
-    results: Output,
-    page: Output,
-}
-
-impl Report {
-    fn new(directory: &Path, trials: &[(Conditions, Trial)], files: &mut CommandFiles) -> Result<Self, OutputError> {
-        let mut file = |name: &str| files.output("--out", &directory.join(name));
-        let picture = |(conditions, trial): &(Conditions, Trial)| {
-            let scene = conditions.named(&trial.scene.name).replace(", ", "-").replace(' ', "-");
-            file(&format!("{scene}-{}.svg", trial.program.name))
-        };
-        let pictures = trials.iter().map(picture).collect::<Result<_, _>>()?;
-        Ok(Self { pictures, results: file("results.json")?, page: file("index.html")? })
-    }
-
-    /// Writes the files and returns the path of the page.
-    fn write(
-        self,
-        provenance: &Provenance,
-        rows: &[BenchRow],
-        figures: &[RunFigures],
-        older: Option<&OlderRuns>,
-    ) -> Result<PathBuf, Failure> {
-        for (file, figures) in self.pictures.into_iter().zip(figures) {
-            file.write(&figures.picture)?;
-        }
-        let documents =
-            rows.iter().map(|row| serde_json::to_value(row.versioned(None))).collect::<Result<Vec<_>, _>>()?;
-        let changes = older.map(|older| older.changes(&documents));
-        self.results.write(output::list(provenance, rows)? + "\n")?;
-        let page = self.page.path().to_owned();
-        self.page.write(bench_page(provenance, rows, figures, changes.as_ref()))?;
-        Ok(page)
-    }
+/// The name of the picture of a trial.
+fn picture_name((conditions, trial): &(Conditions, Trial)) -> String {
+    let scene = conditions.named(&trial.scene.name).replace(", ", "-").replace(' ', "-");
+    format!("{scene}-{}.svg", trial.program.name)
 }

@@ -11,7 +11,8 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Jobs, WorldOptions};
 use super::output;
 use super::provenance::of_runs;
-use super::trials::{inputs, make_directory, run_all};
+use super::report_folder::{ReportFolder, say};
+use super::trials::{inputs, run_all};
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use vibrissa_lab::built_in::{SCENARIOS, TextFile};
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
@@ -19,7 +20,7 @@ use vibrissa_lab::report::{comparison_page, comparison_tables};
 use vibrissa_lab::results::{Document, JitterRecord, Provenance, RunResult, marked};
 use vibrissa_lab::study::compare::{Comparison, Incomplete, PolicyRuns};
 use vibrissa_lab::trial::Trial;
-use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_text::file::CommandFiles;
 use vibrissa_world::scene::{Jitter, Scene};
 
 const EXAMPLE: &str = "Example:\n  vibrissa compare policies/thesis.fsm policies/vibrissa.fsm --seeds 20 --jitter \"10 mm\"\n\nExit status: 0 done, whichever policy is better; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -55,6 +56,10 @@ pub(super) struct CompareArguments {
     jobs: Jobs,
 }
 
+/// The names of the files of the comparison and of all results.
+const COMPARISON: &str = "comparison.json";
+const RESULTS: &str = "results.json";
+
 /// A scenario with one start and one seed.
 struct Setting {
     path: PathBuf,
@@ -73,8 +78,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let loaded = policies.iter().map(|path| load::policy(path, &mut read)).collect::<Result<Vec<_>, _>>()?;
     let settings = settings(&scenarios, &array, arguments, &mut read)?;
     array.check_effect(settings.iter().map(|setting| &setting.scene)).map_err(LoadError::from)?;
-    make_directory(arguments.out.as_deref())?;
-    let report = arguments.out.as_deref().map(|directory| Report::new(directory, &mut read)).transpose()?;
+    let report = ReportFolder::new(arguments.out.as_deref(), [COMPARISON, RESULTS].map(str::to_owned), &mut read)?;
     let mut trials = Vec::with_capacity(policies.len() * settings.len());
     for policy in &loaded {
         output::warnings(&policy.value);
@@ -100,41 +104,17 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         Provenance { jitter: is_jittered.then_some(jitter), ..of_runs(runs.iter().flat_map(|(_, results)| results)) };
     let comparison = Comparison::new(&runs);
     report_incomplete(&comparison);
-    let page = report.map(|report| report.write(&provenance, &comparison, &runs)).transpose()?;
-    output::document(arguments.format, &provenance, &comparison, || comparison_tables(&comparison))?;
-    if let (Some(page), false) = (page, arguments.format.json) {
-        output::result(format_args!("report: {}", page.display()))?;
-    }
-    Ok(Exit::Done)
-}
-
-/// The files for the comparison, all results and the page.
-struct Report {
-    comparison: Output,
-    results: Output,
-    page: Output,
-}
-
-impl Report {
-    fn new(directory: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
-        let mut file = |name: &str| files.output("--out", &directory.join(name));
-        Ok(Self { comparison: file("comparison.json")?, results: file("results.json")?, page: file("index.html")? })
-    }
-
-    /// Writes the files and returns the path of the page.
-    fn write(
-        self,
-        provenance: &Provenance,
-        comparison: &Comparison,
-        runs: &[(String, Vec<RunResult>)],
-    ) -> Result<PathBuf, Failure> {
-        self.comparison.write(serde_json::to_string_pretty(&comparison.versioned(Some(provenance)))? + "\n")?;
+    let write = |mut report: ReportFolder| {
+        let document = serde_json::to_string_pretty(&comparison.versioned(Some(&provenance)))?;
+        report.write(COMPARISON, document + "\n")?;
         let results: Vec<RunResult> = runs.iter().flat_map(|(_, results)| results).cloned().collect();
-        self.results.write(output::list(provenance, &results)? + "\n")?;
-        let page = self.page.path().to_owned();
-        self.page.write(comparison_page(provenance, comparison))?;
-        Ok(page)
-    }
+        report.write(RESULTS, output::list(&provenance, &results)? + "\n")?;
+        report.finish(comparison_page(&provenance, &comparison))
+    };
+    let page = report.map(write).transpose()?;
+    output::document(arguments.format, &provenance, &comparison, || comparison_tables(&comparison))?;
+    say(page, arguments.format)?;
+    Ok(Exit::Done)
 }
 
 fn report_incomplete(comparison: &Comparison) {

@@ -19,7 +19,7 @@ use vibrissa_lab::study::estimators::{EstimatorRow, evaluate_all};
 use vibrissa_lab::trial::{Trial, in_parallel};
 use vibrissa_text::file::CommandFiles;
 
-const EXAMPLE: &str = "Example:\n  vibrissa study estimators --world quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study estimators --simulator quasistatic\n\nExit status: 0 done, whichever estimator is better; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa study estimators`.
 #[derive(Debug, Args)]

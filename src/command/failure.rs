@@ -18,11 +18,11 @@ use vibrissa_lab::property::RegressionsError;
 #[cfg(feature = "recording")]
 use vibrissa_lab::recording::{ReadRecordingError, RecordError};
 use vibrissa_lab::report::ChartTooLarge;
-use vibrissa_lab::request::{RequestError, RequestFault};
+use vibrissa_lab::request::RequestError;
 use vibrissa_lab::study::compare::OlderRunsError;
 use vibrissa_lab::study::stress::CaseError;
-use vibrissa_lab::sweep::{PlanError, ResultsError};
-use vibrissa_lab::trial::{ExecuteError, StartError, Trial};
+use vibrissa_lab::sweep::ResultsError;
+use vibrissa_lab::trial::{ExecuteError, StartError, Trial, TrialFault};
 use vibrissa_lab::tune::{AxisError, CandidateError};
 use vibrissa_language::chart::UnknownState;
 #[cfg(feature = "viewer")]
@@ -122,7 +122,7 @@ pub(super) enum Failure {
     #[error("--set: families set the speed of every scene; for one speed, give --with \"speed=5 cm/s\"")]
     DrawnSpeed,
     #[error("--with: `{name}` of `{family}`: {cause}")]
-    FamilyValue { family: &'static str, name: String, cause: String },
+    FamilyValue { family: String, name: String, cause: String },
     #[error("--param: {0}")]
     Axis(#[from] AxisError),
     #[error("the scene `{scene}` occurs twice; name each scene once")]
@@ -136,7 +136,7 @@ pub(super) enum Failure {
     #[error("{}: --mismatch: {cause}", scenario.display())]
     Mismatch { scenario: PathBuf, cause: MismatchError },
     #[error(transparent)]
-    NoDraw(#[from] NoDraw),
+    NoDraw(NoDraw),
     #[error("{}: almost no start within the jitter is collision-free; make --jitter smaller", scenario.display())]
     NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
@@ -294,10 +294,19 @@ impl Failure {
     }
 }
 
+impl From<NoDraw> for Failure {
+    fn from(error: NoDraw) -> Self {
+        match error {
+            NoDraw::Written { source_text, faults } => Self::Load(LoadError::Faults { source_text, faults }),
+            other => Self::NoDraw(other),
+        }
+    }
+}
+
 impl From<CandidateError> for Failure {
     fn from(error: CandidateError) -> Self {
         match error {
-            CandidateError::Draw(cause) => Self::NoDraw(cause),
+            CandidateError::Draw(cause) => cause.into(),
             CandidateError::Set(cause) => Self::FamilySetting(cause),
         }
     }
@@ -305,24 +314,20 @@ impl From<CandidateError> for Failure {
 
 impl From<RequestError> for Failure {
     fn from(error: RequestError) -> Self {
-        match error.into_fault() {
-            RequestFault::Load(cause) => Self::Load(cause),
-            RequestFault::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
-            RequestFault::Calibration { scenario, cause } => Self::Calibration { scenario, cause },
-            RequestFault::Set(cause) => Self::Set(cause),
-            RequestFault::Machine(cause) => Self::GivenMachine(cause),
-        }
+        error.into_fault().into()
     }
 }
 
-impl From<PlanError> for Failure {
-    fn from(error: PlanError) -> Self {
-        match error {
-            PlanError::Load(cause) => Self::Load(cause),
-            PlanError::Draw(cause) => Self::NoDraw(cause),
-            PlanError::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
-            PlanError::Calibration { scenario, cause } => Self::Calibration { scenario, cause },
-            PlanError::Execute { scenario, cause } => Self::Execute { scenario, cause },
+impl From<TrialFault> for Failure {
+    fn from(fault: TrialFault) -> Self {
+        match fault {
+            TrialFault::Load(cause) => Self::Load(cause),
+            TrialFault::Draw(cause) => cause.into(),
+            TrialFault::Mismatch { scenario, cause } => Self::Mismatch { scenario, cause },
+            TrialFault::Calibration { scenario, cause } => Self::Calibration { scenario, cause },
+            TrialFault::Set(cause) => Self::Set(cause),
+            TrialFault::Machine(cause) => Self::GivenMachine(cause),
+            TrialFault::Execute { scenario, cause } => Self::Execute { scenario, cause },
         }
     }
 }

@@ -12,7 +12,8 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, FamilyValues, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::provenance::of_runs;
-use super::trials::{Finished, inputs, make_directory, report_dead_whiskers, run_all};
+use super::report_folder::{ReportFolder, say};
+use super::trials::{Finished, report_dead_whiskers, run_all};
 use super::values::{parse_runs, parse_seed};
 use vibrissa_lab::built_in::DEFAULT_POLICY;
 use vibrissa_lab::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
@@ -20,7 +21,7 @@ use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_se
 use vibrissa_lab::report::{families_page, families_table};
 use vibrissa_lab::results::{Provenance, SeedRange};
 use vibrissa_lab::trial::{Trial, in_parallel};
-use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_text::file::CommandFiles;
 use vibrissa_world::scene::Violation;
 
 const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --out out\n\nExit status: 0 all runs passed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -29,9 +30,9 @@ const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(super) struct FamiliesArguments {
-    /// Families to run. The default is all except `shapes` and `rooms`, whose runs take long
-    #[arg(value_name = "NAME")]
-    names: Vec<String>,
+    /// Names of families to run, or scenarios with a section `draw`. The default is all built-in families except `shapes` and `rooms`, whose runs take long
+    #[arg(value_name = "FAMILY")]
+    families: Vec<PathBuf>,
     /// Policy, compiled machine or name of a built-in policy such as `thesis`, with a parameter `speed`. The default is `vibrissa.fsm`
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
@@ -64,9 +65,12 @@ pub(super) struct FamiliesArguments {
     jobs: Jobs,
 }
 
+/// The name of the file of all results.
+const RESULTS: &str = "results.jsonl";
+
 /// One of the scenes of a family.
 struct Drawn {
-    family: &'static str,
+    family: String,
     number: u64,
     draw: Draw,
 }
@@ -75,14 +79,15 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     if arguments.settings.has("speed") {
         return Err(Failure::DrawnSpeed);
     }
-    let scenes = scenes(arguments)?;
+    let mut files = CommandFiles::new();
+    let families = chosen(&arguments.families, &mut files)?;
+    let scenes = scenes(&families, arguments)?;
     if arguments.print {
         for scene in &scenes {
             print(scene, arguments.seed)?;
         }
         return Ok(Exit::Done);
     }
-    let mut files = CommandFiles::new();
     let policy = match &arguments.policy {
         Some(path) => load::policy(path, &mut files)?,
         None => load::built_in_policy(&DEFAULT_POLICY)?,
@@ -93,21 +98,30 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     let trials =
         scenes.iter().map(|scene| trial(scene, &policy, &mismatch, arguments)).collect::<Result<Vec<_>, Failure>>()?;
     mismatch.check_effect(trials.iter().map(|trial| &trial.scene)).map_err(LoadError::from)?;
-    make_directory(arguments.out.as_deref())?;
-    let report = arguments.out.as_ref().map(|directory| Report::new(directory, &scenes, &mut files)).transpose()?;
+    let names: Vec<String> = scenes.iter().map(|scene| format!("{}.svg", scene.draw.scene.name)).collect();
+    let all = names.iter().cloned().chain([RESULTS.to_owned()]);
+    let report = ReportFolder::new(arguments.out.as_deref(), all, &mut files)?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
     let finished = run_all(&trials, &mismatch, arguments.jobs, is_drawn)?;
     let (runs, pictures) = with_verdicts(scenes, finished);
     let provenance = of_families(&runs, arguments);
-    let tallies = tallies(&runs);
-    let mut page = None;
-    if let Some(report) = report {
-        page = Some(report.write(&provenance, &tallies, &runs, pictures)?);
-    }
+    let tallies = tallies(&families, &runs);
+    let write = |mut report: ReportFolder| {
+        let links: Vec<_> =
+            names.iter().zip(&pictures).map(|(name, drawn)| drawn.as_ref().map(|_| name.clone())).collect();
+        for (name, picture) in names.iter().zip(pictures) {
+            picture.map(|picture| report.write(name, picture)).transpose()?;
+        }
+        let mut lines = String::new();
+        for run in &runs {
+            lines += &output::json_line(lines.is_empty().then_some(&provenance), run)?;
+        }
+        report.write(RESULTS, lines)?;
+        report.finish(families_page(&provenance, &tallies, &runs, &links))
+    };
+    let page = report.map(write).transpose()?;
     output::documents(arguments.format, &provenance, &runs, || [families_table(&tallies)])?;
-    if let (Some(page), false) = (page, arguments.format.json) {
-        output::result(format_args!("report: {}", page.display()))?;
-    }
+    say(page, arguments.format)?;
     Ok(if runs.iter().all(|run| run.passed) { Exit::Done } else { Exit::Unexpected })
 }
 
@@ -128,26 +142,33 @@ fn of_families(runs: &[FamilyRun], arguments: &FamiliesArguments) -> Provenance 
 }
 
 /// The requested scenes, sampled in parallel.
-fn scenes(arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
-    let families = chosen(&arguments.names)?;
+fn scenes(families: &[Family], arguments: &FamiliesArguments) -> Result<Vec<Drawn>, Failure> {
     let numbers: Vec<u64> = arguments.trial.map_or_else(|| (0..arguments.count).collect(), |trial| vec![trial]);
     let keys: Vec<_> = families.iter().flat_map(|family| numbers.iter().map(move |&trial| (family, trial))).collect();
     let draw = |&(family, trial): &(&Family, u64)| {
         let draw = family.draw_with(arguments.seed, trial, &arguments.values.of(family)?)?;
-        Ok(Drawn { family: family.name, number: trial, draw })
+        Ok(Drawn { family: family.name.to_string(), number: trial, draw })
     };
     in_parallel(&keys, arguments.jobs.threads(), draw, |_| ()).into_iter().collect()
 }
 
-/// The families with these names, each once. Without names, all that run by default.
-fn chosen(names: &[String]) -> Result<Vec<Family>, Failure> {
-    if let Some(name) = names.iter().find(|name| FAMILIES.iter().all(|family| family.name != **name)) {
-        return Err(Failure::NoSuchFamily { name: name.clone() });
-    }
+/// The families with these names or paths, each once, the built-in ones first. Without any, all that run by default.
+fn chosen(names: &[PathBuf], files: &mut CommandFiles) -> Result<Vec<Family>, Failure> {
     let is_chosen = |family: &Family| {
-        if names.is_empty() { family.is_default } else { names.iter().any(|name| name == family.name) }
+        if names.is_empty() { family.is_default } else { names.iter().any(|name| name == Path::new(&*family.name)) }
     };
-    Ok(FAMILIES.iter().copied().filter(is_chosen).collect())
+    let mut chosen: Vec<Family> = FAMILIES.into_iter().filter(is_chosen).collect();
+    for path in names.iter().filter(|name| FAMILIES.iter().all(|family| *name != Path::new(&*family.name))) {
+        if !load::is_scenario(path) {
+            return Err(Failure::NoSuchFamily { name: path.display().to_string() });
+        }
+        let family = load::family(path, files)?;
+        if chosen.iter().any(|other| other.name == family.name) {
+            return Err(Failure::SceneTwice { scene: family.name.into_owned() });
+        }
+        chosen.push(family);
+    }
+    Ok(chosen)
 }
 
 fn trial(
@@ -157,13 +178,12 @@ fn trial(
     arguments: &FamiliesArguments,
 ) -> Result<Trial, Failure> {
     let Draw { text, scene, speed } = &drawn.draw;
-    let (path, mut scene, mut scenario_hash) = (Path::new(&scene.name), scene.clone(), Sha256::new_with_prefix(text));
-    mismatch.apply(&mut scene, &mut scenario_hash, drawn.number).map_err(Failure::mismatch(path))?;
+    let loaded = Loaded { value: scene.clone(), hash: Sha256::new_with_prefix(text) };
     let mut program = policy.value.artifact.program.clone();
     program.set("speed", *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
-    let policy_hash = with_settings(policy.hash.clone(), [("speed", *speed)].into_iter()).finalize();
-    let inputs = inputs(path, &scenario_hash.finalize(), &policy_hash);
-    Ok(Trial { world: arguments.world.of(&scene), inputs, ..Trial::new(scene, Arc::new(program)) })
+    let policy_hash = with_settings(policy.hash.clone(), [("speed", *speed)].into_iter());
+    let (program, world) = (Arc::new(program), arguments.world.of(scene));
+    Ok(mismatch.trial((Path::new(&scene.name), loaded), (&program, policy_hash), world, drawn.number)?)
 }
 
 /// Prints a scenario and the command that runs it.
@@ -173,50 +193,6 @@ fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failur
         "# trial {number} of {family}, seed {seed}; at its speed: vibrissa run FILE --set \"speed={speed}\"\n{}",
         draw.text
     ))
-}
-
-/// The files for all results, for pictures and for the page.
-struct Report {
-    pictures: Vec<Output>,
-    results: Output,
-    page: Output,
-}
-
-impl Report {
-    fn new(directory: &Path, scenes: &[Drawn], files: &mut CommandFiles) -> Result<Self, OutputError> {
-        let mut file = |name: &str| files.output("--out", &directory.join(name));
-        let pictures = scenes.iter().map(|scene| file(&format!("{}.svg", scene.draw.scene.name)));
-        let pictures = pictures.collect::<Result<_, _>>()?;
-        Ok(Self { pictures, results: file("results.jsonl")?, page: file("index.html")? })
-    }
-
-    /// Writes all results, the available pictures and the page. The result is the path of the page.
-    fn write(
-        self,
-        provenance: &Provenance,
-        tallies: &[FamilyTally],
-        runs: &[FamilyRun],
-        pictures: Vec<Option<String>>,
-    ) -> Result<PathBuf, Failure> {
-        let name = |file: &Output| file.path().file_name().map(|name| name.to_string_lossy().into_owned());
-        let links: Vec<Option<String>> = self
-            .pictures
-            .iter()
-            .zip(&pictures)
-            .map(|(file, picture)| picture.as_ref().and_then(|_| name(file)))
-            .collect();
-        for (file, picture) in self.pictures.into_iter().zip(pictures) {
-            picture.map(|picture| file.write(picture)).transpose()?;
-        }
-        let mut lines = String::new();
-        for run in runs {
-            lines += &output::json_line(lines.is_empty().then_some(provenance), run)?;
-        }
-        self.results.write(lines)?;
-        let page = self.page.path().to_owned();
-        self.page.write(families_page(provenance, tallies, runs, &links))?;
-        Ok(page)
-    }
 }
 
 /// The runs with their verdicts, and their pictures. Reports the runs that did not pass.
@@ -243,8 +219,8 @@ fn report_run(run: &FamilyRun) {
 }
 
 /// The counts of each family, at every speed and for all speeds together.
-fn tallies(runs: &[FamilyRun]) -> Vec<FamilyTally> {
+fn tallies(families: &[Family], runs: &[FamilyRun]) -> Vec<FamilyTally> {
     let speeds = || SPEEDS.into_iter().map(Some).chain([None]);
-    let tallies = FAMILIES.iter().flat_map(|family| speeds().map(|speed| FamilyTally::new(family.name, speed, runs)));
+    let tallies = families.iter().flat_map(|family| speeds().map(|speed| FamilyTally::new(&family.name, speed, runs)));
     tallies.filter(|tally| tally.tally.runs > 0).collect()
 }

@@ -35,6 +35,7 @@ mod progress;
 mod provenance;
 mod push;
 mod replay;
+mod report_folder;
 mod reports;
 mod run;
 mod run_outputs;
@@ -65,6 +66,7 @@ use vibrissa_text::diagnostic::printable;
 
 use exit::Exit;
 use groups::{Inspect, Setup, Study};
+use options::OLD_SIMULATOR;
 
 /// Scenarios, benchmarks and a policy language for whisker-based active touch.
 #[derive(Debug, Parser)]
@@ -178,6 +180,12 @@ fn arguments() -> Result<Arguments, ExitCode> {
     if let Some(new) = std::env::args_os().nth(1).and_then(|name| groups::new_name(&name)) {
         output::error(format_args!("this command is now `vibrissa {new}`"));
         return Err(Exit::Unusable.into());
+    }
+    let is_old = |word: OsString| {
+        word.to_str().and_then(|word| word.strip_prefix("--")?.split('=').next()) == Some(OLD_SIMULATOR)
+    };
+    if std::env::args_os().any(is_old) {
+        output::message("note: `--world` is now `--simulator`");
     }
     let words = std::env::args_os();
     #[cfg(feature = "live")]

@@ -13,7 +13,7 @@ use super::options::{ArrayOptions, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::progress::Progress;
 use super::provenance::of_trials;
-use super::trials::{calibrated, drawn, inputs, make_directory, say_calibrations};
+use super::trials::{calibrated, drawn, make_directory, say_calibrations};
 use vibrissa_lab::built_in::SCENARIOS;
 use vibrissa_lab::inspect::{Breakpoints, NearMiss, NearMisses};
 use vibrissa_lab::load::{self, LoadError, Loaded};
@@ -138,25 +138,23 @@ fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Resu
     let mut all: Vec<(Vec<u8>, PolicyRuns)> = Vec::new();
     for source in sources(&arguments.scenarios, files)? {
         let path = PathBuf::from(&source.name);
-        let Loaded { value: mut scene, hash: mut scenario_hash } = load::scenario_in(&source, files)?;
-        let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, files)?;
+        let scene = load::scenario_in(&source, files)?;
+        let policy = load::policy_for(arguments.policy.as_deref(), &scene.value, &source, files)?;
         let Loaded { value: policy, hash } = arguments.settings.of(policy)?;
-        let hash = hash.finalize();
-        let index = if let Some(index) = all.iter().position(|(of, _)| **of == *hash) {
+        let finished = hash.clone().finalize();
+        let index = if let Some(index) = all.iter().position(|(of, _)| **of == *finished) {
             index
         } else {
             output::warnings(&policy);
             let text = policy.text.as_ref().map(|text| &text.source);
             let explained = explained(text, &policy.artifact.program.name)?;
-            all.push((hash.to_vec(), PolicyRuns { policy: explained, trials: Vec::new() }));
+            all.push((finished.to_vec(), PolicyRuns { policy: explained, trials: Vec::new() }));
             all.len() - 1
         };
         let (_, runs) = &mut all[index];
         let program = Arc::new(runs.policy.explained.with_parameters_of(&policy.artifact.program));
-        mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
-        let inputs = inputs(&path, &scenario_hash.finalize(), &hash);
-        let (world, name) = (arguments.world.of(&scene), scene.name.clone());
-        runs.trials.push((name, Trial { world, inputs, ..Trial::new(scene, program) }));
+        let (world, name) = (arguments.world.of(&scene.value), scene.value.name.clone());
+        runs.trials.push((name, mismatch.trial((&path, scene), (&program, hash), world, 0)?));
     }
     let mut all: Vec<PolicyRuns> = all.into_iter().map(|(_, runs)| runs).collect();
     mismatch.check_effect(trials(&all).map(|trial| &trial.scene)).map_err(LoadError::from)?;

@@ -62,15 +62,17 @@ impl Jobs {
 /// Reads the name of a simulator.
 fn simulator_names() -> impl TypedValueParser<Value = WorldKind> {
     let help = |kind: WorldKind| PossibleValue::new(kind.name()).help(kind.about());
-    PossibleValuesParser::new(WorldKind::ALL.map(help))
-        .try_map(|name| WorldKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no simulator"))
+    PossibleValuesParser::new(WorldKind::ALL.map(help)).try_map(|name| WorldKind::named(&name).ok_or("no simulator"))
 }
 
-/// The world of a run.
+/// The old name of `--simulator`, without its dashes. It is still accepted.
+pub(super) const OLD_SIMULATOR: &str = "world";
+
+/// The simulator of a run.
 #[derive(Debug, Args)]
 pub(super) struct WorldOption {
     /// Simulator of the run. Overrides the simulator of the scenario. Without either, `mujoco` is used if the program contains it
-    #[arg(long, value_parser = simulator_names())]
+    #[arg(long = "simulator", alias = OLD_SIMULATOR, value_parser = simulator_names())]
     world: Option<WorldKind>,
 }
 
@@ -226,7 +228,7 @@ impl FamilyValues {
     /// [`Failure`] if the family does not have such a parameter, or not such a value.
     pub(super) fn of(&self, family: &Family) -> Result<Values, Failure> {
         let value = |(name, value): &(String, Quantity)| {
-            let fault = |cause| Failure::FamilyValue { family: family.name, name: name.clone(), cause };
+            let fault = |cause| Failure::FamilyValue { family: family.name.to_string(), name: name.clone(), cause };
             let parameter = family.parameters.iter().find(|parameter| parameter.name == name);
             let Some(parameter) = parameter else {
                 let names: Vec<_> = family.parameters.iter().map(|parameter| parameter.name).collect();

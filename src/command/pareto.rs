@@ -1,6 +1,6 @@
 //! `vibrissa study pareto`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
@@ -12,15 +12,15 @@ use super::options::{ArrayOptions, Format, Policies};
 use super::output;
 use super::progress::Progress;
 use super::provenance::of_trials;
-use super::trials::{extended, make_directory};
+use super::report_folder::{ReportFolder, say};
 use super::values::parse_repeats;
 use vibrissa_lab::built_in::SCENARIOS;
 use vibrissa_lab::load::{self, LoadError, Loaded};
 use vibrissa_lab::report::{pareto_page, pareto_picture, pareto_table};
-use vibrissa_lab::results::{Document, Provenance};
-use vibrissa_lab::study::pareto::{Pareto, Setting, measure};
+use vibrissa_lab::results::Document;
+use vibrissa_lab::study::pareto::{Setting, measure};
 use vibrissa_lab::trial::{Trial, check_world};
-use vibrissa_text::file::{CommandFiles, Output, OutputError};
+use vibrissa_text::file::CommandFiles;
 
 const EXAMPLE: &str = "Example:\n  vibrissa study pareto scenarios/box.yaml --repeats 5 --out out\n  vibrissa study pareto --policy policies/thesis.fsm --mismatch scenarios/mismatch/hard.yaml\n\nExit status: 0 done, whichever settings are better; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -67,14 +67,9 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     let trial =
         |program: &Arc<Program>| Trial { world: world.into(), ..Trial::new(wrong.clone(), Arc::clone(program)) };
     let provenance = of_trials(&programs.iter().map(trial).collect::<Vec<_>>());
-    make_directory(arguments.out.as_deref())?;
-    let report = |program: &Arc<Program>| {
-        let stem = |directory: &PathBuf| directory.join(format!("{}-{}-pareto", scene.name, program.name));
-        arguments.out.as_ref().map(|directory| Report::new(&stem(directory), &mut files)).transpose()
-    };
-    let reports = programs.iter().map(report).collect::<Result<Vec<_>, _>>()?;
-    let page = arguments.out.as_ref().map(|directory| files.output("--out", &directory.join("index.html")));
-    let page = page.transpose()?;
+    let file = |policy: &str, extension| format!("{}-{policy}-pareto.{extension}", scene.name);
+    let names = programs.iter().flat_map(|program| ["json", "svg"].map(|extension| file(&program.name, extension)));
+    let mut report = ReportFolder::new(arguments.out.as_deref(), names, &mut files)?;
     let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats);
     let mut progress = Progress::new(programs.len() * settings.len() * (repeats + 1));
     let mut measured = Vec::with_capacity(programs.len());
@@ -83,42 +78,22 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         measured.push(pareto.map_err(failed)?);
     }
     progress.finish();
-    for (pareto, report) in measured.iter().zip(reports) {
+    for (pareto, program) in measured.iter().zip(&programs) {
         for row in pareto.settings.iter().filter(|row| !row.outcome.met_its_stop()) {
             let reason = row.reason.as_deref().unwrap_or("unknown reason");
             output::message(format_args!("{}: {}: {reason}", pareto.policy, row.setting));
         }
-        report.map(|report| report.write(&provenance, pareto)).transpose()?;
+        if let Some(report) = &mut report {
+            let document = serde_json::to_string_pretty(&pareto.versioned(Some(&provenance)))?;
+            report.write(&file(&program.name, "json"), document + "\n")?;
+            report.write(&file(&program.name, "svg"), pareto_picture(pareto))?;
+        }
     }
     output::calibrations(measured.iter().filter_map(|pareto| pareto.calibration.as_ref()));
     output::documents(arguments.format, &provenance, &measured, || {
         measured.iter().map(pareto_table).collect::<Vec<_>>()
     })?;
-    if let Some(page) = page {
-        let path = page.path().display().to_string();
-        page.write(pareto_page(&provenance, &measured))?;
-        if !arguments.format.json {
-            output::result(format_args!("report: {path}"))?;
-        }
-    }
+    let page = report.map(|report| report.finish(pareto_page(&provenance, &measured))).transpose()?;
+    say(page, arguments.format)?;
     Ok(Exit::Done)
-}
-
-/// The files of a policy.
-struct Report {
-    results: Output,
-    picture: Output,
-}
-
-impl Report {
-    fn new(stem: &Path, files: &mut CommandFiles) -> Result<Self, OutputError> {
-        let mut file = |extension| files.output("--out", &extended(stem, extension));
-        Ok(Self { results: file("json")?, picture: file("svg")? })
-    }
-
-    fn write(self, provenance: &Provenance, pareto: &Pareto) -> Result<(), Failure> {
-        self.results.write(serde_json::to_string_pretty(&pareto.versioned(Some(provenance)))? + "\n")?;
-        self.picture.write(pareto_picture(pareto))?;
-        Ok(())
-    }
 }

@@ -158,7 +158,7 @@ fn recorded_trial(
         None => SCENARIOS.iter().find_map(|file| load::built_in_scenario(file).ok().filter(is_recorded)),
     };
     let Some(Loaded { value: scene, .. }) = loaded else { return Ok(None) };
-    let Some(kind) = WorldKind::ALL.into_iter().find(|kind| kind.name() == identity("world")) else { return Ok(None) };
+    let Some(kind) = WorldKind::named(identity("world")) else { return Ok(None) };
     let trial = Trial {
         assumed_rig: run.rig().clone(),
         seed: identity("seed").parse().unwrap_or(scene.seed),

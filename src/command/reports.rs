@@ -5,6 +5,7 @@ use std::path::Path;
 use super::failure::Failure;
 use super::options::Format;
 use super::output;
+use super::report_folder::{say, written};
 use super::trials::{ReportFiles, make_directory, report_events, report_violations};
 use vibrissa_lab::report::{RunFigures, results_table, runs_page};
 use vibrissa_lab::results::{Provenance, RunResult};
@@ -77,9 +78,7 @@ impl Reports {
         let Some(page) = page else { return Ok(()) };
         let runs: Vec<_> =
             results.iter().zip(&figures).map(|(result, (figures, passed))| (result, figures, *passed)).collect();
-        let path = page.path().display().to_string();
-        page.write(runs_page(provenance, &runs))?;
-        if format.json { Ok(()) } else { output::result(format_args!("report: {path}")) }
+        say(Some(written(page, runs_page(provenance, &runs))?), format)
     }
 }
 

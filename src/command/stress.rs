@@ -1,6 +1,5 @@
 //! `vibrissa study stress`
 
-use std::ops::ControlFlow;
 use std::process::Command;
 
 use clap::Args;
@@ -37,25 +36,18 @@ pub(super) fn stress(arguments: &StressArguments) -> Result<Exit, Failure> {
     let indices: Vec<usize> = (0..tasks.len()).collect();
     let mut progress = Progress::new(tasks.len());
     let mut rows: Vec<(usize, StressRow)> = Vec::with_capacity(tasks.len());
-    let mut failure = None;
     stream_in_parallel(
         &indices,
         arguments.jobs.threads(),
         || None,
         |slot, index| answer(slot, worker, &index.to_string()),
         |index, answer| {
-            match row(&tasks[index], answer) {
-                Ok(row) => rows.push((index, row)),
-                Err(cause) => failure = Some(cause),
-            }
+            rows.push((index, row(&tasks[index], answer)?));
             progress.done(tasks[index].name());
-            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            Ok::<(), Failure>(())
         },
-    );
+    )?;
     progress.finish();
-    if let Some(failure) = failure {
-        return Err(failure);
-    }
     rows.sort_by_key(|(index, _)| *index);
     let rows: Vec<StressRow> = rows.into_iter().map(|(_, row)| row).collect();
     let mut provenance = provenance();

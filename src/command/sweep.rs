@@ -1,7 +1,6 @@
 //! `vibrissa sweep`
 
 use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -13,6 +12,7 @@ use super::options::{ArrayOptions, Format, Jobs, PruneOption};
 use super::output;
 use super::progress::{Kept, Progress};
 use super::provenance::of_trials;
+use super::report_folder::{say, written};
 use super::trials::make_directory;
 use vibrissa_lab::report::{summary_table, sweep_page};
 use vibrissa_lab::results::{Provenance, SeedRange, add_seeds};
@@ -105,7 +105,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let mut progress = Progress::resumed(resumed as u64, left.len() as u64, Kept::In(path.clone()));
     let fingerprint = header.fingerprint();
     let start = || worker(arguments, &pictures, &fingerprint);
-    let (mut failure, mut calibrations) = (None, BTreeSet::new());
+    let mut calibrations = BTreeSet::new();
     stream_in_parallel(
         &left,
         arguments.jobs.threads(),
@@ -113,22 +113,16 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
         |slot, index| answer(slot, start, &index.to_string()),
         |task, answer| {
             let index = left[task];
-            let added = line(sweep, index, answer).and_then(|line| {
-                let ReadLine { key, figures, .. } = read_line(&line).map_err(Failure::Answer)?;
-                results.add(&line)?;
-                calibrations.extend(read_calibration(&line));
-                done.insert(index, figures);
-                progress.done(key);
-                Ok(())
-            });
-            failure = added.err();
-            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let line = line(sweep, index, answer)?;
+            let ReadLine { key, figures, .. } = read_line(&line).map_err(Failure::Answer)?;
+            results.add(&line)?;
+            calibrations.extend(read_calibration(&line));
+            done.insert(index, figures);
+            progress.done(key);
+            Ok::<(), Failure>(())
         },
-    );
+    )?;
     progress.finish();
-    if let Some(failure) = failure {
-        return Err(failure);
-    }
     output::calibrations(calibrations.iter());
     let summary = SweepSummary::new(sweep, &done, resumed);
     print_summary(&provenance, &summary, &path, arguments.format)?;
@@ -219,8 +213,5 @@ pub(super) fn write_page(
         let name = format!("{PICTURES}/{}.svg", row.run);
         path.with_file_name(&name).is_file().then_some(name)
     };
-    let text = sweep_page(provenance, summary, &rows, picture);
-    let written = page.path().display().to_string();
-    page.write(text)?;
-    if format.json { Ok(()) } else { output::result(format_args!("report: {written}")) }
+    say(Some(written(page, sweep_page(provenance, summary, &rows, picture))?), format)
 }

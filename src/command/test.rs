@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
+use sha2::Sha256;
 use vibrissa_runtime::machine::Program;
 
 use super::exit::Exit;
@@ -15,7 +15,7 @@ use super::output;
 use super::progress::Progress;
 use super::provenance::{of_runs, of_trials};
 use super::test_property::{self, CasesTried, Property, SearchOptions, Simulated, Tried};
-use super::trials::{self, ReportFiles, calibrated, inputs, make_directory, run_with_bar};
+use super::trials::{self, ReportFiles, calibrated, make_directory, run_with_bar};
 use vibrissa_declare::figures::Metric;
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText, WithoutEffect, with_settings};
 use vibrissa_lab::property::Regressions;
@@ -25,7 +25,7 @@ use vibrissa_language::{PolicyTest, TestScenes};
 use vibrissa_text::diagnostic::{Diagnostic, Record, Source, Span, records};
 use vibrissa_text::file::{CommandFiles, Output, OutputError};
 
-const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n  vibrissa test mine.fsm --cases 200 --world quasistatic --out out\n  vibrissa test mine.fsm --mismatch scenarios/mismatch/plausible.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa test policies/vibrissa.fsm --filter corner\n  vibrissa test mine.fsm --cases 200 --simulator quasistatic --out out\n  vibrissa test mine.fsm --mismatch scenarios/mismatch/plausible.yaml\n\nExit status: 0 done and all expectations held; 1 an expectation failed; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa test`.
 #[derive(Debug, Args)]
@@ -278,7 +278,7 @@ fn trial_of(
     files: &mut CommandFiles,
 ) -> Result<Trial, Failure> {
     let path = policy.parent().unwrap_or(Path::new("")).join(file);
-    let Loaded { value: mut scene, mut hash } = load::scenario(&path, files).map_err(|failure| match failure {
+    let scene = load::scenario(&path, files).map_err(|failure| match failure {
         LoadError::Read { cause, .. } | LoadError::Missing { cause, .. } => {
             let message = format!("cannot read {}: {cause}", path.display());
             let fault = Diagnostic::error("P0702", message, span, "this scenario")
@@ -287,13 +287,12 @@ fn trial_of(
         }
         other => other,
     })?;
-    simulated.mismatch.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(&path))?;
     test.set(&mut program);
-    output::warn_of_rates(&path, &scene.rig, &program);
+    output::warn_of_rates(&path, &scene.value.rig, &program);
     let settings = test.settings.iter().map(|&(index, value)| (program.parameters[index].name.as_str(), value));
     let policy_hash = with_settings(policy_hash, settings);
-    let inputs = inputs(&path, &hash.finalize(), &policy_hash.finalize());
-    Ok(Trial { world: simulated.world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) })
+    let world = simulated.world.of(&scene.value).into();
+    Ok(simulated.mismatch.trial((&path, scene), (&Arc::new(program), policy_hash), world, 0)?)
 }
 
 /// Prints whether a test has passed. The outcome of a passed run was expected, even if it is a failure, and is not

@@ -16,12 +16,12 @@ use super::failure::Failure;
 use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
-use super::trials::{calibrated, inputs, report_events, report_violations};
+use super::trials::{calibrated, report_events, report_violations};
 use super::values::{parse_cases, parse_seed};
 use vibrissa_declare::catalogue::Entry;
 use vibrissa_declare::catalogue::common::SPEED;
 use vibrissa_lab::family::{Draw, Family, NoDraw};
-use vibrissa_lab::load::{GivenMismatch, with_settings};
+use vibrissa_lab::load::{GivenMismatch, Loaded, with_settings};
 use vibrissa_lab::property::{Case, Drawn, Regressions, Search, Shrunk, Verdict};
 use vibrissa_lab::results::RunResult;
 use vibrissa_lab::trial::{Trial, TrialResult, in_parallel, violations};
@@ -235,16 +235,14 @@ impl<'a> Property<'a> {
     }
 
     fn trial(&self, draw: Draw) -> Result<Trial, Failure> {
-        let Draw { text, mut scene, speed } = draw;
-        let (path, mut scenario_hash) = (PathBuf::from(&scene.name), Sha256::new_with_prefix(text));
+        let Draw { text, scene, speed } = draw;
         let Simulated { world, mismatch, .. } = self.simulated;
-        mismatch.apply(&mut scene, &mut scenario_hash, 0).map_err(Failure::mismatch(&path))?;
         let mut program = self.program.clone();
         program.set(SPEED.name, speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
-        let policy_hash = with_settings(self.policy_hash.clone(), [(SPEED.name, speed)].into_iter()).finalize();
-        let inputs = inputs(&path, &scenario_hash.finalize(), &policy_hash);
-        let trial = Trial { world: world.of(&scene).into(), inputs, ..Trial::new(scene, Arc::new(program)) };
-        calibrated(&trial, mismatch)
+        let policy_hash = with_settings(self.policy_hash.clone(), [(SPEED.name, speed)].into_iter());
+        let (path, world) = (PathBuf::from(&scene.name), world.of(&scene).into());
+        let scene = Loaded { value: scene, hash: Sha256::new_with_prefix(text) };
+        calibrated(&mismatch.trial((&path, scene), (&Arc::new(program), policy_hash), world, 0)?, mismatch)
     }
 
     /// Runs a case that fails once more, for its report.

@@ -25,7 +25,7 @@ use vibrissa_lab::tune::{
 use vibrissa_language::with_defaults;
 use vibrissa_text::file::CommandFiles;
 
-const EXAMPLE: &str = "Example:\n  vibrissa tune policies/thesis.fsm --param target --param light --scene polygon --world quasistatic\n  vibrissa tune mine.fsm --scene scenarios/box.yaml --held-out scenarios/octagon.yaml --write tuned.fsm\n\nExit status: 0 done; 1 a held-out run under the tuned values did not pass; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa tune policies/thesis.fsm --param target --param light --scene polygon --simulator quasistatic\n  vibrissa tune mine.fsm --scene scenarios/box.yaml --held-out scenarios/octagon.yaml --write tuned.fsm\n\nExit status: 0 done; 1 a held-out run under the tuned values did not pass; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa tune`.
 #[derive(Debug, Args)]
@@ -184,9 +184,12 @@ fn mean_cost(runs: &[TunedRun]) -> f64 {
     TunedFigures::new(runs).cost.unwrap_or(f64::INFINITY)
 }
 
-/// The family with this name.
-fn family(name: &Path) -> Option<Family> {
-    name.to_str().and_then(Family::named)
+/// The family with this name, or that of a file. `None` for anything else.
+fn family(path: &Path, files: &mut CommandFiles) -> Result<Option<Family>, load::LoadError> {
+    match path.to_str().and_then(Family::named) {
+        None if load::is_scenario(path) => load::drawn_scenes(&load::scenario_text(path, files)?),
+        named => Ok(named),
+    }
 }
 
 /// The scenes with these files and families. Numbers of families begin at `first`.
@@ -198,14 +201,13 @@ fn scenes(
 ) -> Result<Vec<TuningScene>, Failure> {
     let mut scenes = Vec::new();
     for path in names {
-        let is_file = load::is_scenario(path);
-        match family(path) {
-            _ if is_file => scenes.push(TuningScene::scenario(load::scenario(path, files)?)),
+        match family(path, files)? {
             Some(family) => {
                 for number in first..first + arguments.count {
-                    scenes.push(TuningScene::family(family, arguments.seed, number)?);
+                    scenes.push(TuningScene::family(family.clone(), arguments.seed, number)?);
                 }
             }
+            None if load::is_scenario(path) => scenes.push(TuningScene::scenario(load::scenario(path, files)?)),
             None => return Err(Failure::NoSuchFamily { name: path.display().to_string() }),
         }
     }
@@ -219,7 +221,11 @@ fn scenes(
 /// The held-out scenes: those that were requested, or else further ones of the training families.
 fn held_out(arguments: &TuneArguments, files: &mut CommandFiles) -> Result<Vec<TuningScene>, Failure> {
     let names = if arguments.held_out.is_empty() {
-        arguments.scenes.iter().filter(|path| family(path).is_some()).cloned().collect()
+        let mut families = Vec::new();
+        for path in &arguments.scenes {
+            families.extend(family(path, files)?.map(|_| path.clone()));
+        }
+        families
     } else {
         arguments.held_out.clone()
     };

@@ -1,7 +1,6 @@
 //! The runs of `vibrissa tune`.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use sha2::Sha256;
@@ -124,8 +123,7 @@ impl<'a> TuningRuns<'a> {
             .collect();
         let work = self.work;
         let (results, finished, progress) = (&mut self.results, &mut self.done, &mut self.progress);
-        let mut failure = None;
-        let mut keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
+        let keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
             let run = run?;
             let Some(&(candidate, scene)) = tasks.get(index) else { return Ok(()) };
             results.add(&output::json_line(None, &TuningLine::new(candidate, scene, run))?)?;
@@ -135,17 +133,8 @@ impl<'a> TuningRuns<'a> {
             }
             Ok(())
         };
-        stream_in_parallel(
-            &tasks,
-            work.jobs.threads(),
-            || (),
-            |(), (candidate, scene)| work.run(candidate, scene),
-            |index, run| {
-                failure = keep(index, run).err();
-                if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            },
-        );
-        failure.map_or(Ok(()), Err)
+        let run = |(): &mut (), (candidate, scene): &(&Candidate, &TuningScene)| work.run(candidate, scene);
+        stream_in_parallel(&tasks, work.jobs.threads(), || (), run, keep)
     }
 
     /// The runs of a candidate in scenes.

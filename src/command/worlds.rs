@@ -19,7 +19,7 @@ use vibrissa_lab::trial::{check_world, in_parallel};
 use vibrissa_text::file::CommandFiles;
 use vibrissa_world::scene::{Scene, WorldKind};
 
-const EXAMPLE: &str = "Example:\n  vibrissa study worlds --against quasistatic,peer_cable\n\nExit status: 0 done, however far the worlds differ; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa study worlds --against quasistatic,peer_cable\n\nExit status: 0 done, however far the simulators differ; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa study worlds`.
 #[derive(Debug, Args)]

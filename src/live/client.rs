@@ -10,12 +10,11 @@ use std::thread;
 use tungstenite::protocol::WebSocket;
 use tungstenite::{Error, Message};
 
-use super::counterfactual::{Question, answer};
 use super::hub::Hub;
 use super::log::RunLog;
 use super::socket::Socket;
-use super::watcher::breakpoints_with;
 use vibrissa_lab::stream::message::{History, PageMessage, Piece, ServerMessage, Ticks};
+use vibrissa_lab::stream::{Counterfactual, Question, breakpoints, breakpoints_with};
 
 /// The largest number of ticks in a message. Of more that are new, the oldest are lost.
 const BATCH: usize = 120;
@@ -24,6 +23,8 @@ const RANGE_LIMIT: usize = 4000;
 const RANGE: usize = 2000;
 /// The largest number of counterfactuals of a page at a time.
 const QUESTIONS: usize = 8;
+/// The number of ticks of a counterfactual between two looks whether it is canceled.
+const TICKS: usize = 60;
 /// The largest number of breakpoints.
 const BREAKPOINTS: usize = 64;
 
@@ -96,7 +97,7 @@ impl Page {
             return Ok(());
         }
         self.cancel_all();
-        let hello = ServerMessage::Hello(Arc::clone(&log.hello));
+        let hello = ServerMessage::Hello(Arc::clone(&log.facts.hello));
         (self.run, self.next, self.status) = (Some((number, log)), 0, None);
         self.send(&hello)
     }
@@ -184,8 +185,8 @@ impl Page {
             return self.refuse(format!("there are {BREAKPOINTS} breakpoints; remove some of them"), None);
         }
         match breakpoints_with(source, &texts, add) {
-            Ok(infos) => {
-                self.hub.set_breakpoints(texts, infos);
+            Ok(policy) => {
+                self.hub.set_breakpoints(texts, breakpoints(&policy));
                 Ok(())
             }
             Err(fault) => self.refuse(format!("this is no breakpoint: {fault}"), None),
@@ -205,7 +206,7 @@ impl Page {
         let is_canceled = Arc::clone(&canceled);
         let work = move || {
             let send = |piece| sender.send(ServerMessage::Counterfactual(piece)).is_ok();
-            if let Err(message) = answer(&log, &question, &is_canceled, send) {
+            if let Err(message) = answer(&log, question, &is_canceled, send) {
                 // Nobody waits if the page is gone.
                 let _ = sender.send(ServerMessage::Error { message, id: Some(id) });
             }
@@ -222,6 +223,31 @@ impl Page {
     fn cancel_all(&mut self) {
         for canceled in std::mem::take(&mut self.questions).values() {
             canceled.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Answers a question in pieces, which `send` receives. It returns false if nobody waits for them. `is_canceled` ends the answer.
+///
+/// # Errors
+/// What cannot be done, for people.
+fn answer(
+    log: &RunLog,
+    question: Question,
+    is_canceled: &AtomicBool,
+    mut send: impl FnMut(Piece) -> bool,
+) -> Result<(), String> {
+    let mut answer = Counterfactual::begin(log, question)?;
+    loop {
+        if let Some(piece) = answer.advance(log, TICKS)? {
+            let is_last = piece.done;
+            if !send(piece) || is_last {
+                return Ok(());
+            }
+        }
+        if is_canceled.load(Ordering::Relaxed) {
+            send(answer.cancel());
+            return Ok(());
         }
     }
 }

@@ -136,7 +136,7 @@ impl Viewer<'_> {
         if self.run.as_ref().is_none_or(|run| run.number != number) {
             let outlet = Arc::new(Outlet { id: SinkId::next(), inner: Mutex::default() });
             let info = json!({
-                "op": "serverInfo", "name": format!("vibrissa {}", log.hello.command), "capabilities": [],
+                "op": "serverInfo", "name": format!("vibrissa {}", log.facts.hello.command), "capabilities": [],
                 "sessionId": number.to_string(),
             });
             self.socket.send(Message::text(info.to_string()))?;
@@ -213,7 +213,8 @@ impl Run {
         let context = Context::new();
         context.add_sink(Arc::clone(&self.outlet) as Arc<dyn Sink>);
         let surfaces = self.log.scene.as_ref().map(|scene| &scene.truth.surfaces);
-        let channels = Channels::new(context, (&self.log.rig, &self.log.hello.scenario), surfaces, names.clone());
+        let channels =
+            Channels::new(context, (&self.log.facts.rig, &self.log.facts.hello.scenario), surfaces, names.clone());
         // Its errors are those of encoding, which no value of a run has.
         let Ok(mut channels) = channels else { return };
         let frames = self.log.past().newest(0, usize::MAX);
@@ -227,7 +228,8 @@ impl Run {
         let Some(channels) = &mut self.channels else { return };
         let ticks = self.log.past().raw(self.next);
         for (tick, raw, frame) in ticks {
-            let guards = frame.filter(|_| !self.log.hello.guards.is_empty()).map(|frame| guards(&self.log, &frame));
+            let guards =
+                frame.filter(|_| !self.log.facts.hello.guards.is_empty()).map(|frame| guards(&self.log, &frame));
             // Values that are not finite are written as null, so nothing fails.
             let _ = channels.frame(raw.as_ref().clone(), guards.map(|guards| (&[][..], guards)));
             self.next = tick + 1;
@@ -248,7 +250,7 @@ fn message_data(subscription: u32, time: u64, data: &[u8]) -> Vec<u8> {
 /// The guards of a tick, as a recording has them.
 fn guards(log: &RunLog, frame: &Frame) -> Vec<GuardRecord> {
     let record = |guard: &GuardFrame| {
-        let info = log.hello.guards.get(guard.guard)?;
+        let info = log.facts.hello.guards.get(guard.guard)?;
         let part = |(index, part): (usize, &PartInfo)| {
             let is_missing = guard.missing.contains(&index);
             if !guard.met && !is_missing {
@@ -258,7 +260,7 @@ fn guards(log: &RunLog, frame: &Frame) -> Vec<GuardRecord> {
             let margin = margin.map(|(value, unit)| Margin { value, text: format!("{} {unit}", value.abs()), unit });
             Some(LeafRecord { text: part.text.clone(), holds: !is_missing, margin })
         };
-        let state = info.state.and_then(|state| log.hello.chart.states.get(state));
+        let state = info.state.and_then(|state| log.facts.hello.chart.states.get(state));
         Some(GuardRecord {
             state: state.map(|state| state.name.clone()),
             guard: info.text.clone(),

@@ -3,24 +3,18 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use vibrissa_runtime::rig::Rig;
-use vibrissa_runtime::signal::{Command, Sample};
+use vibrissa_runtime::signal::Sample;
 
-use super::sample_store::SampleStore;
 use vibrissa_lab::recording::RecordedFrame;
 use vibrissa_lab::run::Trace;
-use vibrissa_lab::stream::Changeable;
-use vibrissa_lab::stream::GuardNumbers;
-use vibrissa_lab::stream::RunSetup;
-use vibrissa_lab::stream::Shadow;
 use vibrissa_lab::stream::message::{Frame, Hello};
-use vibrissa_lab::trial::Trial;
+use vibrissa_lab::stream::{Changeable, GuardNumbers, PastRun, RunFacts, RunSetup, SampleStore, Shadow, TickResult};
 use vibrissa_text::diagnostic::Source;
 use vibrissa_world::scene::Scene;
 
 /// Number of ticks between copies of the control loop. A counterfactual executes at most as many ticks before its own.
 const CHECKPOINT_TICKS: usize = 256;
-/// The largest number of frames that are kept. With more, every second one of the older ones is dropped.
+/// The largest number of frames that are kept. The page has its own limit, `LIMIT` in `web/src/live/history.ts`. With more, every second one of the older ones is dropped.
 const FRAME_LIMIT: usize = 36_000;
 /// The number of the newest frames that are all kept.
 const NEWEST: usize = 4096;
@@ -30,17 +24,9 @@ const RAW_LIMIT: usize = 128;
 /// A run and its past.
 pub(super) struct RunLog {
     /// What does not change.
-    pub(super) hello: Arc<Hello>,
-    /// The numbers of the guards.
-    pub(super) numbers: GuardNumbers,
-    /// The values that a counterfactual may change.
-    pub(super) changeable: Changeable,
-    /// The rig that control assumes.
-    pub(super) rig: Rig,
+    pub(super) facts: RunFacts,
     /// The scene, if it is known.
     pub(super) scene: Option<Scene>,
-    /// The trial, if its world can be simulated again.
-    pub(super) trial: Option<Trial>,
     /// The text of the policy, if there is one.
     pub(super) policy: Option<Source>,
     /// A trace of the run without ticks, as soon as it has had one.
@@ -54,25 +40,12 @@ pub(super) struct Past {
     /// Frames with an index that is a multiple of this are kept.
     kept_every: usize,
     /// The results of all ticks.
-    pub(super) ticks: Vec<TickResult>,
+    ticks: Vec<TickResult>,
     samples: SampleStore,
     /// Copies of the control loop, with the number of ticks that they have executed.
     checkpoints: Vec<(usize, Box<Shadow>)>,
     /// The newest ticks for viewers of Foxglove's protocol.
     raw: VecDeque<(usize, Arc<RecordedFrame>)>,
-}
-
-/// The result of a tick, with which a counterfactual is compared.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TickResult {
-    /// Time since the start of the run (s).
-    pub(super) time: f64,
-    /// The innermost active state. `None` after the end of the machine.
-    pub(super) state: Option<usize>,
-    /// The last transition that was taken, by the number of its guard.
-    pub(super) taken: Option<usize>,
-    /// The command.
-    pub(super) command: Command,
 }
 
 /// A tick that a run has executed.
@@ -105,12 +78,14 @@ impl RunLog {
             raw: VecDeque::new(),
         };
         Self {
-            hello: Arc::new(hello),
-            numbers,
-            changeable,
-            rig: setup.rig.clone(),
+            facts: RunFacts {
+                hello: Arc::new(hello),
+                numbers,
+                changeable,
+                rig: setup.rig.clone(),
+                trial: setup.trial.clone(),
+            },
             scene: setup.scene.clone(),
-            trial: setup.trial.clone(),
             policy: setup.policy.clone(),
             names: OnceLock::new(),
             past: Mutex::new(past),
@@ -122,14 +97,27 @@ impl RunLog {
         // A thread that panicked has not left it half changed: it only pushes.
         self.past.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
 
-    /// What a transition or a state is called.
-    pub(super) fn phrase(&self, result: &TickResult) -> String {
-        if let Some(guard) = result.taken.and_then(|guard| self.hello.guards.get(guard)) {
-            return format!("{} -> {}", guard.text, guard.target);
-        }
-        let state = result.state.and_then(|state| self.hello.chart.states.get(state));
-        state.map_or_else(|| "has ended".to_owned(), |state| format!("stays in {}", state.name))
+impl PastRun for RunLog {
+    fn facts(&self) -> &RunFacts {
+        &self.facts
+    }
+
+    fn sampled(&self) -> usize {
+        self.past().samples.ticks()
+    }
+
+    fn samples(&self, tick: usize) -> Vec<Sample> {
+        self.past().samples.get(tick)
+    }
+
+    fn result(&self, tick: usize) -> Option<TickResult> {
+        self.past().ticks.get(tick).copied()
+    }
+
+    fn checkpoint(&self, ticks: usize) -> Option<(usize, Box<Shadow>)> {
+        self.past().checkpoint(ticks)
     }
 }
 
@@ -193,18 +181,8 @@ impl Past {
         thinned(frames, to.saturating_sub(from).div_ceil(most.max(1)))
     }
 
-    /// The samples of a tick.
-    pub(super) fn samples(&self, tick: usize) -> Vec<Sample> {
-        self.samples.get(tick)
-    }
-
-    /// The number of ticks whose samples are known.
-    pub(super) fn sampled(&self) -> usize {
-        self.samples.ticks()
-    }
-
     /// The last copy of the control loop that has executed at most this number of ticks.
-    pub(super) fn checkpoint(&self, ticks: usize) -> Option<(usize, Box<Shadow>)> {
+    fn checkpoint(&self, ticks: usize) -> Option<(usize, Box<Shadow>)> {
         let place = self.checkpoints.partition_point(|(executed, _)| *executed <= ticks).checked_sub(1)?;
         self.checkpoints.get(place).cloned()
     }

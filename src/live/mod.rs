@@ -6,7 +6,6 @@
 //! Why: docs/decisions/recordings.md#the-live-page-is-served-by-threads-from-copies-of-the-control-loop.
 
 mod client;
-mod counterfactual;
 mod error;
 mod folder;
 mod foxglove;
@@ -18,7 +17,6 @@ mod page;
 mod places;
 mod replay;
 mod request;
-mod sample_store;
 mod server;
 mod socket;
 mod token;

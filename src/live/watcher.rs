@@ -10,7 +10,7 @@ use vibrissa_runtime::signal::Sample;
 
 use super::error::LiveError;
 use super::hub::{Hub, Pace};
-use super::log::{Executed, RunLog, TickResult};
+use super::log::{Executed, RunLog};
 use vibrissa_lab::inspect::Breakpoints;
 use vibrissa_lab::recording::RecordedFrame;
 use vibrissa_lab::results::Ending;
@@ -18,10 +18,10 @@ use vibrissa_lab::run::{Run, Trace, Watcher};
 use vibrissa_lab::stream::Frames;
 use vibrissa_lab::stream::RunSetup;
 use vibrissa_lab::stream::Shadow;
-use vibrissa_lab::stream::message::{BreakpointInfo, Timing};
-use vibrissa_lab::stream::{breakpoints, hello};
+use vibrissa_lab::stream::TickResult;
+use vibrissa_lab::stream::hello;
+use vibrissa_lab::stream::message::Timing;
 use vibrissa_lab::trial::TrialResult;
-use vibrissa_text::diagnostic::{Diagnostic, Source};
 
 /// Passes the ticks of a run on to the page, and makes the run wait where a user asked for it.
 pub struct LiveWatcher<'i> {
@@ -125,38 +125,22 @@ impl<'i> LiveWatcher<'i> {
         if self.setup.is_emulated {
             let [.., before, newest] = trace.ticks.as_slice() else { return None };
             let period = newest.time - before.time;
-            let overload = period > 1.5 * self.log.hello.control_period;
+            let overload = period > 1.5 * self.log.facts.hello.control_period;
             return Some(Timing { period: Some(period), used: 0.0, overload });
         }
         let now = Instant::now();
         let used = now.duration_since(self.began_tick).as_secs_f64();
         let period = self.last_tick.replace(now).map(|last| now.duration_since(last).as_secs_f64());
-        Some(Timing { period, used, overload: used > self.log.hello.control_period })
+        Some(Timing { period, used, overload: used > self.log.facts.hello.control_period })
     }
 }
 
 /// The explained policy of a run with breakpoints, as far as it has them, and what is wrong with the others.
 fn explained(setup: &RunSetup, texts: &[String]) -> Result<(Option<Arc<Breakpoints>>, Vec<String>), LiveError> {
     let Some(source) = &setup.policy else { return Ok((None, Vec::new())) };
-    let (policy, others) = with_breakpoints(source, texts).map_err(|_| LiveError::Explain)?;
+    let (policy, others) = Breakpoints::possible(source, texts).map_err(|_| LiveError::Explain)?;
     let fault = |text: &String| format!("the policy `{}` has no breakpoint `{text}`", setup.program.name);
     Ok((Some(Arc::new(policy)), others.iter().map(fault).collect()))
-}
-
-/// A policy with breakpoints, as far as it has them, and the texts of the others.
-///
-/// # Errors
-/// Those of a policy that does not compile.
-fn with_breakpoints(source: &Source, texts: &[String]) -> Result<(Breakpoints, Vec<String>), Vec<Diagnostic>> {
-    let all = Breakpoints::new(source, texts);
-    if let Ok(policy) = all {
-        return Ok((policy, Vec::new()));
-    }
-    let is_usable = |text: &&String| Breakpoints::new(source, std::slice::from_ref(*text)).is_ok();
-    let (usable, others): (Vec<&String>, Vec<&String>) = texts.iter().partition(is_usable);
-    let usable: Vec<String> = usable.into_iter().cloned().collect();
-    let policy = Breakpoints::new(source, &usable).map_err(|(_, faults)| faults)?;
-    Ok((policy, others.into_iter().cloned().collect()))
 }
 
 /// The control loop that explains guards, at the start of a run.
@@ -185,7 +169,8 @@ impl Watcher for LiveWatcher<'_> {
         let timing = self.timing(trace);
         let (_, hit) = self.shadow.tick(&self.samples);
         let Some(tick) = trace.ticks.last() else { return ControlFlow::Continue(()) };
-        let Some(frame) = self.frames.frame(trace, (&self.shadow, &self.log.numbers, &self.log.hello.chart), timing)
+        let Some(frame) =
+            self.frames.frame(trace, (&self.shadow, &self.log.facts.numbers, &self.log.facts.hello.chart), timing)
         else {
             return ControlFlow::Continue(());
         };
@@ -207,21 +192,4 @@ fn without_ticks(trace: &Trace) -> Trace {
     let mut empty = Trace { ticks: Vec::new(), marks: Vec::new(), messages: Vec::new(), ..trace.clone() };
     empty.plots.iter_mut().for_each(|plot| plot.values.clear());
     empty
-}
-
-/// The breakpoints with these texts, as far as a policy has them. It must have the `new` one.
-///
-/// # Errors
-/// What is wrong with the new one, for people.
-pub(super) fn breakpoints_with(
-    source: &Source,
-    texts: &[String],
-    new: Option<&String>,
-) -> Result<Vec<BreakpointInfo>, String> {
-    let fault = |faults: Vec<Diagnostic>| faults.first().map_or_else(String::new, |fault| fault.message.clone());
-    if let Some(new) = new {
-        Breakpoints::new(source, std::slice::from_ref(new)).map_err(|(_, faults)| fault(faults))?;
-    }
-    let (policy, _) = with_breakpoints(source, texts).map_err(fault)?;
-    Ok(breakpoints(&policy))
 }

@@ -1,7 +1,5 @@
 //! What a run leaves for its video.
 
-use std::ops::ControlFlow;
-
 use vibrissa_runtime::machine::Observer;
 
 use vibrissa_lab::run::{Trace, Watcher};
@@ -75,9 +73,5 @@ impl Watcher for Film {
             self.shots.push(shot.clone());
         }
         self.newest = Some(shot);
-    }
-
-    fn after_tick(&mut self, _: &Trace) -> ControlFlow<()> {
-        ControlFlow::Continue(())
     }
 }

@@ -1,6 +1,5 @@
 //! A window that shows a run in real time.
 
-use std::ops::ControlFlow;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -100,9 +99,5 @@ impl Watcher for RunWindow {
             Ok(false) => self.window = None,
             Err(failure) => (self.window, self.failure) = (None, Some(failure)),
         }
-    }
-
-    fn after_tick(&mut self, _: &Trace) -> ControlFlow<()> {
-        ControlFlow::Continue(())
     }
 }

@@ -9,7 +9,7 @@ fn fulfils_all(scenes: &[&str], world: &str) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/more");
     let files = scenes.iter().map(|scene| folder.join(format!("{scene}.yaml")));
     let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
-    let output = command.arg("run").args(files).args(["--world", world, "--json"]).output().unwrap();
+    let output = command.arg("run").args(files).args(["--simulator", world, "--json"]).output().unwrap();
     let runs: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(runs.len(), scenes.len());
     // The expectations of the scenes bound errors, coverage and collisions.

@@ -14,7 +14,7 @@ fn runs(policy: &str, world: &str) -> Vec<Value> {
     let scenes = SCENES.map(|scene| root.join(format!("scenarios/more/thesis-array-{scene}.yaml")));
     let policy = root.join(format!("policies/{policy}.fsm"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_vibrissa"));
-    let output = command.arg("run").args(scenes).arg("--policy").arg(policy).args(["--world", world, "--json"]);
+    let output = command.arg("run").args(scenes).arg("--policy").arg(policy).args(["--simulator", world, "--json"]);
     let runs: Vec<Value> = serde_json::from_slice(&output.output().unwrap().stdout).unwrap();
     assert_eq!(runs.len(), SCENES.len());
     runs

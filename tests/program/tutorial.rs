@@ -56,7 +56,7 @@ fn the_policy_for_several_objects_traces_them_in_both_worlds() {
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("mine.fsm"), blocks(SEVERAL_OBJECTS, "fsm").concat()).unwrap();
     std::fs::write(folder.join("mine.yaml"), blocks(SEVERAL_OBJECTS, "yaml").concat()).unwrap();
-    for arguments in [&["test", "mine.fsm"][..], &["run", "mine.yaml", "--world", "quasistatic"]] {
+    for arguments in [&["test", "mine.fsm"][..], &["run", "mine.yaml", "--simulator", "quasistatic"]] {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"))
             .args(arguments)
             .current_dir(&folder)

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may open files")]
 
+mod drawn;
 mod family;
 mod geometry;
 #[cfg(feature = "outlines")]

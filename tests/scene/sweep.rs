@@ -45,7 +45,7 @@ fn the_sweep_of_corners_is_a_thousand_scenes_under_two_policies() {
     let runs: Vec<_> = sweep.runs().collect();
     assert_eq!(runs.len(), 2000);
     assert!(
-        runs.iter().all(|run| matches!(run.scenes().of, ScenesOf::Family(family) if family.name == "convex-corner"))
+        runs.iter().all(|run| matches!(&run.scenes().of, ScenesOf::Family(family) if family.name == "convex-corner"))
     );
     let keys: BTreeSet<_> = runs.iter().map(SweepRun::key).collect();
     assert_eq!(keys.len(), 2000);

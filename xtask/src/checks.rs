@@ -47,7 +47,8 @@ enum Work {
 /// A Cargo command that must succeed.
 struct CargoRun {
     environment: &'static [(&'static str, &'static str)],
-    arguments: &'static [&'static str],
+    /// Separated by blanks.
+    arguments: &'static str,
 }
 
 /// Why the checks stopped, and what to do.
@@ -99,7 +100,7 @@ const SAME_CASES: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 ///
 /// All of it is the `dev` profile. Dependencies are compiled for the tests and checked for clippy and documentation.
 const CHECKS: [Check; 21] = [
-    check("formatting", &["fmt", "--all", "--check"]),
+    check("formatting", "fmt --all --check"),
     Check { title: "prose of the documentation and the doc comments", work: Work::Prose },
     Check { title: "links of the documentation", work: Work::Links },
     Check { title: "subjects of commits", work: Work::Commits },
@@ -110,78 +111,44 @@ const CHECKS: [Check; 21] = [
         // mujoco-rs's build script would stop at a directory that does not exist.
         &[("MUJOCO_DYNAMIC_LINK_DIR", "/nonexistent")],
         "lints of the core, without MuJoCo",
-        &[
-            "clippy",
-            "--package",
-            "vibrissa",
-            "--package",
-            "vibrissa-text",
-            "--package",
-            "vibrissa-yaml",
-            "--package",
-            "vibrissa-language",
-            "--package",
-            "vibrissa-world",
-            "--package",
-            "vibrissa-mujoco",
-            "--package",
-            "vibrissa-lab",
-            // It has no test of Cargo. But with it, dependencies have the features of the whole workspace.
-            "--package",
-            "vibrissa-python",
-            "--no-default-features",
-            "--all-targets",
-            "--",
-            "--deny",
-            "warnings",
-        ],
+        // The Python package has no test of Cargo. But with it, dependencies have the features of the whole workspace.
+        "clippy -p vibrissa -p vibrissa-text -p vibrissa-yaml -p vibrissa-language -p vibrissa-world -p vibrissa-mujoco -p vibrissa-lab -p vibrissa-python --no-default-features --all-targets -- --deny warnings",
     ),
     Check { title: "book", work: Work::Book },
     Check { title: "scripts of the pages", work: Work::Web },
     Check { title: "set-up", work: Work::Setup },
-    check("lints", &["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"]),
-    check_in(&[SAME_CASES], "tests", &["test", "--workspace"]),
+    check("lints", "clippy --workspace --all-targets -- --deny warnings"),
+    check_in(&[SAME_CASES], "tests", "test --workspace"),
     Check { title: "tests of the runtime and of the robot on aarch64, under an emulator", work: Work::Aarch64 },
     // The tests have built them.
     Check { title: "examples", work: Work::Examples },
     check_in(
         &[("RUSTDOCFLAGS", "--deny=warnings")],
         "documentation",
-        &["doc", "--workspace", "--exclude", "xtask", "--exclude", "vibrissa-python", "--no-deps", "--lib"],
+        "doc --workspace --exclude xtask --exclude vibrissa-python --no-deps --lib",
     ),
     // Cargo would need the runtime from a registry to build the package, or to write its lock file.
     check(
         "packages, not built",
-        &[
-            "package",
-            "--quiet",
-            "--workspace",
-            "--exclude",
-            "xtask",
-            "--exclude",
-            "vibrissa-python",
-            "--allow-dirty",
-            "--no-verify",
-            "--exclude-lockfile",
-        ],
+        "package --quiet --workspace --exclude xtask --exclude vibrissa-python --allow-dirty --no-verify --exclude-lockfile",
     ),
     // Not `cargo bench -- --test`, which does the same on a second build of everything, in release.
     // The whole workspace, so that dependencies have the features with which the tests were built.
-    check("benches, each run once", &["test", "--workspace", "--bench", "*"]),
+    check("benches, each run once", "test --workspace --bench *"),
     Check { title: "pages in a browser", work: Work::Browser },
     // The dependencies are those of the tests, and so is the program that it is compared with.
     Check { title: "Python package", work: Work::Python },
     Check { title: "nothing left behind", work: Work::CheckoutIsUntouched },
 ];
 
-const fn check(title: &'static str, arguments: &'static [&'static str]) -> Check {
+const fn check(title: &'static str, arguments: &'static str) -> Check {
     check_in(&[], title, arguments)
 }
 
 const fn check_in(
     environment: &'static [(&'static str, &'static str)],
     title: &'static str,
-    arguments: &'static [&'static str],
+    arguments: &'static str,
 ) -> Check {
     Check { title, work: Work::Cargo(CargoRun { environment, arguments }) }
 }
@@ -257,9 +224,13 @@ impl Check {
 }
 
 impl CargoRun {
+    fn command(&self, root: &Path) -> Command {
+        cargo(root, &self.arguments.split(' ').collect::<Vec<_>>())
+    }
+
     fn succeed(&self, title: &'static str, root: &Path) -> Result<(), CheckError> {
         println!("      {self}");
-        let mut command = cargo(root, self.arguments);
+        let mut command = self.command(root);
         command.envs(self.environment.iter().copied());
         let status = command.status().map_err(|source| NotStarted { program: "cargo", source })?;
         if status.success() { Ok(()) } else { Err(CheckError::Failed { title, status, rerun: self.to_string() }) }
@@ -272,16 +243,14 @@ impl std::fmt::Display for CargoRun {
         for (name, value) in self.environment {
             write!(f, "{name}={value} ")?;
         }
-        write!(f, "cargo {}", self.arguments.join(" "))
+        write!(f, "cargo {}", self.arguments)
     }
 }
 
 fn core_is_free_of_mujoco(title: &'static str, root: &Path) -> Result<(), CheckError> {
-    const TREE: CargoRun = CargoRun {
-        environment: &[],
-        arguments: &["tree", "--package", "vibrissa", "--no-default-features", "--edges", "normal,build"],
-    };
-    let mut command = cargo(root, TREE.arguments);
+    const TREE: CargoRun =
+        CargoRun { environment: &[], arguments: "tree --package vibrissa --no-default-features --edges normal,build" };
+    let mut command = TREE.command(root);
     let output = command.stderr(Stdio::inherit()).output().map_err(|source| NotStarted { program: "cargo", source })?;
     if !output.status.success() {
         return Err(CheckError::Failed { title, status: output.status, rerun: TREE.to_string() });
@@ -296,7 +265,7 @@ const EXAMPLES: [&str; 2] = ["examples", "crates/runtime/examples"];
 /// Runs every example as a program. They are built as one workspace, as the tests have built them. `cargo run` of one
 /// package would build dependencies again, because they get fewer features.
 fn examples_run(title: &'static str, root: &Path) -> Result<(), CheckError> {
-    const BUILD: CargoRun = CargoRun { environment: &[], arguments: &["build", "--workspace", "--examples"] };
+    const BUILD: CargoRun = CargoRun { environment: &[], arguments: "build --workspace --examples" };
     BUILD.succeed(title, root)?;
     let programs = target_directory(root).join("debug/examples");
     for folder in EXAMPLES {
@@ -386,7 +355,7 @@ mod tests {
 
     #[test]
     fn a_check_is_shown_as_a_line_for_the_shell() {
-        let run = CargoRun { environment: &[("RUSTDOCFLAGS", "--deny=warnings")], arguments: &["doc", "--no-deps"] };
+        let run = CargoRun { environment: &[("RUSTDOCFLAGS", "--deny=warnings")], arguments: "doc --no-deps" };
         assert_eq!(run.to_string(), "RUSTDOCFLAGS=--deny=warnings cargo doc --no-deps");
     }
 

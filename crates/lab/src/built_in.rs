@@ -81,6 +81,9 @@ pub const NAMED_SCENARIOS: &[TextFile] = &{
 /// The policies that the bench runs unless it is given others. They use the standard library alone.
 pub const POLICIES: &[TextFile] = &[text_file!("policies/thesis.fsm"), DEFAULT_POLICY];
 
+/// The policy that maps rooms, which the playground offers.
+pub const ROOM_POLICY: TextFile = text_file!("policies/explore.fsm");
+
 /// The mismatch of an array that is made with care and that nobody has calibrated.
 pub const PLAUSIBLE_MISMATCH: TextFile = text_file!("scenarios/mismatch/plausible.yaml");
 

@@ -9,7 +9,8 @@
 //!
 //! # Where to begin
 //!
-//! A family of scenes is a file of `family`, a column of a table an entry of the crate `declare`, a chart a file of `report/chart`.
+//! A family of scenes is a file of `family`, a column of the table of runs an entry of the crate `declare`, of
+//! another table its file in `report/tables`, a chart a file of `report/chart`.
 //! `docs/howto/extend.md` has the steps. Read `docs/decisions/scores.md` before you change [`score`], because published figures
 //! depend on it.
 

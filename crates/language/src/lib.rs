@@ -16,7 +16,7 @@
 //! # Where to begin
 //!
 //! A text of an editor is in the table of words, a message next to its error in `lower` or `analysis`, a function of policies in
-//! `builtins`. A new warning is a file of `analysis`. Read `docs/decisions/compiler.md` before you change `lower` or `optimise`,
+//! `builtins/function.rs` and `lower/function.rs`. A new warning is a file of `analysis`. Read `docs/decisions/compiler.md` before you change `lower` or `optimise`,
 //! because the bits of all results and the bounds of a tick depend on them. `tests/policy` has a second, independent interpreter.
 
 // The code that pest writes for a grammar without `std` names it.
@@ -126,6 +126,13 @@ pub enum Checked {
 #[must_use]
 pub fn gather(source: &Source, library: &mut Library<'_>) -> Source {
     load::load(source, library).source
+}
+
+/// Adds the modules of the standard library that a text uses, like [`gather`] but without parsing, which takes most of the time of a
+/// compilation. It sees only uses at the start of a line. A caller compares the hash of the resulting text with a known one.
+#[must_use]
+pub fn gather_modules(source: &Source) -> Source {
+    load::modules(source)
 }
 
 /// Compiles the text of a policy. It may use the standard library and the parts of the source.

@@ -76,6 +76,24 @@ pub(super) fn load(source: &Source, library: &mut Library<'_>) -> Loaded {
     loaded
 }
 
+/// A source with the standard modules that lines of its texts name.
+pub(super) fn modules(source: &Source) -> Source {
+    let mut whole = source.clone();
+    let mut part = 0;
+    while part < whole.count() {
+        let text = whole.slice(whole.part_span(part)).to_owned();
+        let used = text.lines().filter_map(|line| line.strip_prefix("use ")?.split([' ', '(']).next());
+        for name in used {
+            let is_new = (1..whole.count()).all(|part| whole.part_name(part) != name);
+            if let Some(text) = standard(name).filter(|_| is_new) {
+                whole.add(name, Ok(text));
+            }
+        }
+        part += 1;
+    }
+    whole
+}
+
 /// The text of the file `name`, if the policy does not exceed its limits with it.
 pub(super) fn text_of(source: &Source, name: &str, library: &mut Library<'_>) -> Result<String, String> {
     let text = standard(name).map_or_else(|| library(name), |text| Ok(text.to_owned()))?;

@@ -26,7 +26,7 @@ use mujoco_rs::mujoco_c::{mjrContext, mjrRect, mjvCamera, mjvGeom, mjvOption, mj
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup` in a checkout, or `pip install mujoco=={}` for Python, or use the \
-     world `quasistatic`, which does not need it",
+     simulator `quasistatic`, which does not need it",
     version()
 )]
 pub struct LibraryError {

@@ -26,8 +26,8 @@ pub enum MujocoError {
     /// A shaft is so light that MuJoCo's least inertia would change its dynamics.
     #[error(
         "the links of whisker `{whisker}` are too light to be simulated by MuJoCo: its least moment of inertia of a link, \
-         {MIN_INERTIA:.0e} kg m^2, adds {:.0} % to that of the whisker about its base; use fewer `links` or a thicker shaft, or run in the \
-         world `quasistatic`, which has no inertia",
+         {MIN_INERTIA:.0e} kg m^2, adds {:.0} % to that of the whisker about its base; use fewer `links` or a thicker shaft, or use the \
+         simulator `quasistatic`, which has no inertia",
         100.0 * share
     )]
     Light {

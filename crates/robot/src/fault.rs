@@ -5,9 +5,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::config::FaultResponse;
-use crate::kinds::kinds;
 
-kinds! {
+vibrissa_runtime::kinds! {
     /// The kinds of faults.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "snake_case")]

@@ -18,7 +18,7 @@
 //! # Where to begin
 //!
 //! A fault that a robot should detect begins as a kind of `emulation`, which the fault campaign then injects. Its detection belongs to
-//! `drive`, its name to `fault.rs`. Read `docs/decisions/robot.md` before you change what stops the robot.
+//! `drive`, its name to `fault.rs`. Timeouts, limits and responses to faults have their defaults in `config/safety.rs`. Read `docs/decisions/robot.md` before you change what stops the robot.
 
 pub mod admission;
 pub mod array;
@@ -30,7 +30,6 @@ pub mod fault;
 #[cfg(any(feature = "recording", feature = "store"))]
 mod hex;
 pub mod histogram;
-mod kinds;
 pub mod link;
 #[cfg(feature = "mqtt")]
 pub mod mqtt;

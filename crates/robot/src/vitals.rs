@@ -60,7 +60,7 @@ pub struct Vitals {
     /// Age of the newest sample at the start of a control tick.
     pub sample_age: Histogram,
     /// Missed periods of acquisition on each bus, of control and of supervision.
-    pub missed: [AtomicU64; Phase::COUNT],
+    pub missed: [AtomicU64; Phase::ALL.len()],
 }
 
 /// The newest fault of a whisker's sensor.
@@ -72,31 +72,18 @@ pub struct SensorVital {
     count: AtomicU64,
 }
 
-/// The phases of the loop, for counts of missed periods.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Phase {
-    /// Reading of the sensors.
-    Acquisition,
-    /// The control tick.
-    Control,
-    /// Supervision and sending of commands.
-    Supervision,
-}
-
-impl Phase {
-    /// Number of phases.
-    pub const COUNT: usize = 3;
-    /// All phases.
-    pub const ALL: [Self; Self::COUNT] = [Self::Acquisition, Self::Control, Self::Supervision];
-
+vibrissa_runtime::kinds! {
+    /// The phases of the loop, for counts of missed periods.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Phase,
     /// The name of the phase in messages.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Acquisition => "acquisition",
-            Self::Control => "control",
-            Self::Supervision => "supervision",
-        }
+    fn name {
+        /// Reading of the sensors.
+        Acquisition = "acquisition",
+        /// The control tick.
+        Control = "control",
+        /// Supervision and sending of commands.
+        Supervision = "supervision",
     }
 }
 

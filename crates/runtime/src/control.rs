@@ -101,11 +101,16 @@ impl Control {
     ///
     /// `samples` are those since the last tick, oldest first. The function allocates no memory.
     pub fn tick(&mut self, samples: &[Sample]) -> (Command, Tick) {
-        self.tick_observed(samples, &mut ())
+        self.tick_under(samples, &mut ())
     }
 
     /// Executes one [`tick`](Self::tick). `observer` receives the guards that are tried and the transitions that are taken.
-    pub fn tick_observed(&mut self, samples: &[Sample], observer: &mut impl Observer) -> (Command, Tick) {
+    pub fn tick_observed(&mut self, samples: &[Sample], observer: &mut dyn Observer) -> (Command, Tick) {
+        // A type parameter would compile the tick in the crate of every caller, with the optimisation of that crate.
+        self.tick_under(samples, observer)
+    }
+
+    fn tick_under<O: Observer + ?Sized>(&mut self, samples: &[Sample], observer: &mut O) -> (Command, Tick) {
         self.perception.update(samples);
         let tick = match &mut self.map {
             Some(map) => {

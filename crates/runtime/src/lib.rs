@@ -70,6 +70,7 @@
 pub mod calibration;
 pub mod control;
 pub mod geometry;
+mod kinds;
 pub mod machine;
 pub mod map;
 pub mod math;

@@ -32,6 +32,18 @@ fn the_old_name_of_a_command_is_answered_with_the_new_one() {
 }
 
 #[test]
+fn the_old_name_of_the_simulator_is_accepted_and_the_new_one_is_said() {
+    let [old, new] = ["--world=quasistatic", "--simulator=quasistatic"]
+        .map(|option| vibrissa(&["run", "disk", "--policy", "thesis", option, "--json"]));
+    assert_eq!((old.status.code(), figures(&old)), (new.status.code(), figures(&new)));
+    assert!(
+        stderr(&old).contains("`--world` is now `--simulator`") && !stderr(&new).contains("--world"),
+        "{}",
+        stderr(&old)
+    );
+}
+
+#[test]
 fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
     let files = bad("scenarios");
     assert!(files.len() >= 20);
@@ -46,7 +58,7 @@ fn every_malformed_scenario_is_refused_with_a_place_and_exit_status_2() {
 /// A stack that no machine has room for: no thread can be started.
 #[test]
 fn without_other_threads_all_is_done_by_the_first() {
-    let arguments = ["families", "two-objects", "--count", "3", "--world", "quasistatic", "--json", "-j", "3"];
+    let arguments = ["families", "two-objects", "--count", "3", "--simulator", "quasistatic", "--json", "-j", "3"];
     let alone = Command::new(env!("CARGO_BIN_EXE_vibrissa"))
         .args(arguments)
         .env("RUST_MIN_STACK", (1_u64 << 46).to_string())

@@ -170,7 +170,7 @@ fn measured_touches_have_the_fit_of_the_array_that_made_them() {
     let mismatch = folder.join("soft.yaml").display().to_string();
     std::fs::write(&mismatch, "stiffness: -4 %\nlength: 0.4 mm\n").unwrap();
     let [out, again] = ["out", "again"].map(|name| folder.join(name).display().to_string());
-    let (code, by_itself) = measured(&["--self", "--world", "quasistatic", "--mismatch", &mismatch, "--out", &out]);
+    let (code, by_itself) = measured(&["--self", "--simulator", "quasistatic", "--mismatch", &mismatch, "--out", &out]);
     assert_eq!((code, by_itself.len()), (Some(0), 2), "{by_itself:?}");
     assert!(by_itself.iter().all(|whisker| whisker["within_ellipsoid"] == true), "{by_itself:?}");
     // Without noise of the poses, only that of the mechanics is left.
@@ -193,7 +193,7 @@ fn measured_touches_have_the_fit_of_the_array_that_made_them() {
 fn touches_that_determine_nothing_are_refused_and_write_no_calibration() {
     let folder = directory("calibrate_nothing");
     let [made, out] = ["made", "out"].map(|name| folder.join(name).display().to_string());
-    assert_eq!(measured(&["--self", "--world", "quasistatic", "--out", &made]).0, Some(0));
+    assert_eq!(measured(&["--self", "--simulator", "quasistatic", "--out", &made]).0, Some(0));
     let touches = format!("{made}/touches.csv");
     let text = std::fs::read_to_string(&touches).unwrap();
     let with_deviation = |deviation: &str| {

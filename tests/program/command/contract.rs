@@ -46,7 +46,7 @@ fn a_run_that_violates_a_contract_does_not_pass_and_shows_where() {
     let folder = directory("contracts-run");
     let lines = folder.join("transitions.jsonl").display().to_string();
     let policy = policy("contracts-run-policy", "");
-    let run = ["run", "scenarios/disk.yaml", "--world", "quasistatic", "--policy", &policy];
+    let run = ["run", "scenarios/disk.yaml", "--simulator", "quasistatic", "--policy", &policy];
     let output = vibrissa(&[&run[..], &["--json", "--transitions", &lines]].concat());
     assert_eq!(output.status.code(), Some(1));
     let told = stderr(&output);

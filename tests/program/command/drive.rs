@@ -38,7 +38,8 @@ fn without_the_program_of_the_robot_the_message_names_it_and_the_simulation() {
 
 #[test]
 fn options_of_a_simulation_are_refused_without_one() {
-    for option in [&["--seed", "1"][..], &["--world", "quasistatic"], &["--json"], &["--no-prune"], &["--inject", "a"]]
+    for option in
+        [&["--seed", "1"][..], &["--simulator", "quasistatic"], &["--json"], &["--no-prune"], &["--inject", "a"]]
     {
         let output = vibrissa(&[&["drive", "a.machine", "--config", "array.yaml"], option].concat());
         assert_eq!(output.status.code(), Some(2), "{option:?}");
@@ -72,7 +73,7 @@ fn a_sensor_that_dies_in_contact_is_named_and_the_machine_goes_on_after_it() {
         let output = emulated(
             &format!("drive-{kind}"),
             &[("faults.yaml", &inject)],
-            "drive policies/vibrissa.fsm --emulate scenarios/disk.yaml --world quasistatic --inject @/faults.yaml --json",
+            "drive policies/vibrissa.fsm --emulate scenarios/disk.yaml --simulator quasistatic --inject @/faults.yaml --json",
         );
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let document: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
@@ -90,7 +91,7 @@ fn a_fault_at_which_the_policy_fails_is_not_said_to_be_without_effect() {
     let output = emulated(
         "drive-overbent",
         &[("faults.yaml", "- {at_ms: 25000, for_ms: 500, kind: overbent_whisker, part: 0}\n")],
-        "drive policies/thesis.fsm --emulate scenarios/disk.yaml --world quasistatic --inject @/faults.yaml --json",
+        "drive policies/thesis.fsm --emulate scenarios/disk.yaml --simulator quasistatic --inject @/faults.yaml --json",
     );
     let message = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{message}");

@@ -63,3 +63,30 @@ fn a_sweep_varies_a_parameter_of_its_families() {
         assert!(about.contains(&(angle.into(), said.into())), "{about:?}");
     }
 }
+
+#[test]
+fn a_file_is_a_family_and_its_scenes_can_be_printed_and_swept() {
+    let directory = directory("written-family");
+    let file = format!("{ROOT}/scenarios/families/posts.yaml");
+    let output = vibrissa(&["families", &file, "--count", "2", "--print"]);
+    let shown = stdout(&output);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(shown.contains("name: posts-0") && shown.contains("name: posts-1") && !shown.contains('$'), "{shown}");
+    let text = format!(
+        "name: posts\npolicies: [{ROOT}/policies/vibrissa.fsm]\nscenes: [{{scenario: {file}, trials: 2}}]\nvary:\n  \
+         scenario: {{world: [quasistatic], stop: [{{time: 1 s}}], expect: [{{}}]}}\n"
+    );
+    let (path, out) = (directory.join("posts.yaml"), directory.join("out"));
+    fs::write(&path, text).unwrap();
+    let output = vibrissa(&["sweep", path.to_str().unwrap(), "--jobs", "1", "--out", out.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let results = fs::read_to_string(out.join("results.jsonl")).unwrap();
+    let scenes = results.lines().skip(1).map(|line| serde_json::from_str::<Value>(line).unwrap()["scenario"].clone());
+    assert_eq!(scenes.collect::<Vec<_>>(), ["posts-0", "posts-1"]);
+    let output = vibrissa(&["run", &file]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("`vibrissa families FILE` runs it"), "{}", stderr(&output));
+    let output = vibrissa(&["families", &format!("{ROOT}/scenarios/disk.yaml")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("has no section `draw`"), "{}", stderr(&output));
+}

@@ -92,18 +92,18 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
         "robot.yaml",
         "--out",
     ),
-    ("bench --policy @/quick.fsm --world quasistatic --out @", "laws.fsm", "results.json", "--out"),
-    ("bench --policy @/quick.fsm --world quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
+    ("bench --policy @/quick.fsm --simulator quasistatic --out @", "laws.fsm", "results.json", "--out"),
+    ("bench --policy @/quick.fsm --simulator quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
     ("run @/scene.yaml --out @", "quick.fsm", "index.html", "--out"),
     ("compare @/quick.fsm policies/thesis.fsm @/scene.yaml --out @", "scene.yaml", "results.json", "--out"),
     (
-        "families polygon --count 1 --policy @/quick.fsm --world quasistatic --out @",
+        "families polygon --count 1 --policy @/quick.fsm --simulator quasistatic --out @",
         "laws.fsm",
         "polygon-0.svg",
         "--out",
     ),
     (
-        "families polygon --count 1 --policy @/quick.fsm --world quasistatic --out @",
+        "families polygon --count 1 --policy @/quick.fsm --simulator quasistatic --out @",
         "quick.fsm",
         "results.jsonl",
         "--out",
@@ -348,7 +348,7 @@ fn a_pipe_that_nobody_reads_is_refused_before_the_first_run() {
     let folder = folder("stale-outputs");
     assert_eq!(in_folder(&folder, "sweep @/small.yaml --out @/done").status.code(), Some(0));
     for (line, name) in [
-        ("families polygon --count 1 --world quasistatic --out @", "results.jsonl"),
+        ("families polygon --count 1 --simulator quasistatic --out @", "results.jsonl"),
         ("graph @/quick.fsm -o @/pipe", "pipe"),
         ("compile @/quick.fsm -o @/pipe", "pipe"),
         ("run @/scene.yaml --ticks @/pipe", "pipe"),

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::program::{directory, stderr, stdout, vibrissa};
 
-const BOX: [&str; 4] = ["scenarios/box.yaml", "--world", "quasistatic", "--policy"];
+const BOX: [&str; 4] = ["scenarios/box.yaml", "--simulator", "quasistatic", "--policy"];
 
 #[test]
 fn a_run_stops_at_a_breakpoint_and_shows_its_guards() {
@@ -46,7 +46,7 @@ fn a_compiled_machine_has_no_guards_to_show() {
 fn diff_has_exit_status_1_for_policies_that_differ() {
     let diff = |other: &str| {
         let arguments =
-            ["inspect", "diff", "policies/thesis.fsm", other, "scenarios/box.yaml", "--world", "quasistatic"];
+            ["inspect", "diff", "policies/thesis.fsm", other, "scenarios/box.yaml", "--simulator", "quasistatic"];
         let output = vibrissa(&arguments);
         (output.status.code(), stdout(&output))
     };

@@ -64,7 +64,7 @@ fn a_sweep_says_where_its_results_are_and_goes_on_with_them() {
 
 #[test]
 fn what_keeps_nothing_says_so() {
-    let many = ["--world", "quasistatic", "--jobs", "1"];
+    let many = ["--simulator", "quasistatic", "--jobs", "1"];
     let compare = ["compare", "policies/thesis.fsm", "policies/vibrissa.fsm", "--jitter", "10 mm", "--seeds", "100"];
     let families = ["families", "convex-corner", "--count", "200"];
     for arguments in [&compare[..], &families[..]] {

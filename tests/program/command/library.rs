@@ -48,7 +48,7 @@ fn without_mujocos_library_all_works_that_does_not_need_it_and_the_rest_says_wha
         let output = run(&directory, arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
     }
-    let output = run(&directory, &["run", "scene.yaml", "--world", "quasistatic", "--json"]);
+    let output = run(&directory, &["run", "scene.yaml", "--simulator", "quasistatic", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).contains("\"outcome\": \"completed\""), "{}", stdout(&output));
     for arguments in

@@ -10,7 +10,8 @@ use super::program::{ROOT, directory, stderr, stdout, vibrissa};
 
 /// The result of a run of the disk in the quasi-static world.
 fn run(arguments: &[&str]) -> Value {
-    let disk = ["run", "scenarios/disk.yaml", "--policy", "policies/thesis.fsm", "--world", "quasistatic", "--json"];
+    let disk =
+        ["run", "scenarios/disk.yaml", "--policy", "policies/thesis.fsm", "--simulator", "quasistatic", "--json"];
     let output = vibrissa(&[&disk, arguments].concat());
     let mut results: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
     results[0].take()
@@ -95,7 +96,7 @@ fn a_sweep_passes_its_mismatch_to_its_workers_and_varies_single_keys() {
 
 /// The results of the tests of `policy`, by their titles.
 fn tests(policy: &str, arguments: &[&str]) -> Vec<Value> {
-    let test = ["test", policy, "--world", "quasistatic", "--no-keep", "--cases", "2", "--json"];
+    let test = ["test", policy, "--simulator", "quasistatic", "--no-keep", "--cases", "2", "--json"];
     let output = vibrissa(&[&test, arguments].concat());
     serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)))
 }
@@ -140,7 +141,7 @@ const PLAUSIBLE: &str = "scenarios/mismatch/plausible.yaml";
 fn an_array_has_the_same_calibration_and_figures_in_every_command() {
     let directory = directory("mismatch_commands");
     let policy = short_policy(&directory);
-    let common = ["--policy", &policy, "--world", "quasistatic", "--mismatch", PLAUSIBLE, "--json"];
+    let common = ["--policy", &policy, "--simulator", "quasistatic", "--mismatch", PLAUSIBLE, "--json"];
     let results = |command: &[&str]| -> Vec<Value> {
         let output = vibrissa(&[command, &common].concat());
         assert!(stderr(&output).contains("calibrat"), "{}", stderr(&output));
@@ -162,7 +163,7 @@ fn an_array_has_the_same_calibration_and_figures_in_every_command() {
     let text = text.replace("../", "");
     let mismatch = format!("mismatch: {{from: {ROOT}/{PLAUSIBLE}}}\n");
     let section = file(&directory, "box.yaml", &(text + &mismatch));
-    let output = vibrissa(&["run", &section, "--policy", &policy, "--world", "quasistatic", "--json"]);
+    let output = vibrissa(&["run", &section, "--policy", &policy, "--simulator", "quasistatic", "--json"]);
     let found: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
     assert_eq!((&found[0]["error_mm"], calibration(&found[0])), (&run[0]["error_mm"], calibration(&run[0])));
 
@@ -187,7 +188,7 @@ fn with_cache(cache: &Path, scenario: &str) -> Command {
         scenario,
         "--policy",
         "policies/thesis.fsm",
-        "--world",
+        "--simulator",
         "quasistatic",
         "--mismatch",
         PLAUSIBLE,
@@ -243,10 +244,10 @@ fn a_seed_without_effect_is_an_error() {
     let fixed = file(&directory, "fixed.yaml", "stiffness: 5 %\n");
     let noisy = file(&directory, "noisy.yaml", "sensor: {noise: 0.1 urad}\n");
     let (run, bench) = (&["run", "scenarios/disk.yaml"][..], &["bench"][..]);
-    let refused = |command: &[&str], options: &[&str], seed: &str| {
+    let refused = |command: &[&str], options: &[&str], of: &str| {
         let output = vibrissa(&[command, options].concat());
         assert_eq!(output.status.code(), Some(2), "{command:?} {options:?}");
-        assert!(stderr(&output).contains(&format!("({seed}) has no effect")), "{}", stderr(&output));
+        assert!(stderr(&output).contains(&format!("the seed of {of} has no effect")), "{}", stderr(&output));
     };
     let compare = ["compare", "policies/bang.fsm", "policies/thesis.fsm"];
     let test = ["test", "policies/thesis.fsm"];
@@ -261,15 +262,15 @@ fn a_seed_without_effect_is_an_error() {
         &["inspect", "diff", "policies/bang.fsm", "policies/thesis.fsm"],
         &["calibrate", "--self"],
     ] {
-        refused(command, &["--mismatch-seed", "3", "--mismatch", &fixed], "--mismatch-seed");
+        refused(command, &["--mismatch-seed", "3", "--mismatch", &fixed], "the mismatch");
     }
-    refused(run, &["--mismatch-seed", "3"], "--mismatch-seed");
+    refused(run, &["--mismatch-seed", "3"], "the mismatch");
     for command in [run, bench] {
-        refused(command, &["--seed", "3"], "--seed");
-        refused(command, &["--seed", "3", "--mismatch", &fixed], "--seed");
+        refused(command, &["--seed", "3"], "the noise");
+        refused(command, &["--seed", "3", "--mismatch", &fixed], "the noise");
     }
-    refused(&["calibrate"], &["--seed", "3"], "--seed");
-    refused(&["calibrate", "--self"], &["--seed", "3", "--mismatch", &fixed], "--seed");
+    refused(&["calibrate"], &["--seed", "3"], "the noise");
+    refused(&["calibrate", "--self"], &["--seed", "3", "--mismatch", &fixed], "the noise");
     let seeded =
         |seed: &str| self::run(&["--mismatch", &noisy, "--uncalibrated", "--seed", seed])["error_mm"]["mean"].clone();
     assert_ne!(seeded("3"), seeded("4"));
@@ -307,17 +308,17 @@ fn whiskers_of_a_rat_run_in_both_simulators_and_lighter_ones_are_refused_by_the_
     let rat = file(&directory, "rat.yaml", &scene("world: quasistatic\n", of_rat));
     let worlds = if cfg!(feature = "sim") { &["quasistatic", "mujoco"][..] } else { &["quasistatic"] };
     for world in worlds {
-        let output = vibrissa(&["run", &rat, "--json", "--world", world]);
+        let output = vibrissa(&["run", &rat, "--json", "--simulator", world]);
         let results: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
         assert!(results[0]["sim_s"].as_f64().unwrap() > 1.0, "{world}: {results}");
     }
     let wire = "{radius: 2 um, links: 64, density: 500 kg/m^3}";
     // The command chooses the simulator where the scenario does not.
     let light = file(&directory, "light.yaml", &scene("", wire));
-    let output = vibrissa(&["run", &light, "--json", "--world", "quasistatic"]);
+    let output = vibrissa(&["run", &light, "--json", "--simulator", "quasistatic"]);
     assert!(!stdout(&output).is_empty(), "{}", stderr(&output));
     if cfg!(feature = "sim") {
-        let output = vibrissa(&["run", &light, "--world", "mujoco"]);
+        let output = vibrissa(&["run", &light, "--simulator", "mujoco"]);
         assert_eq!(output.status.code(), Some(2));
         let told = stderr(&output);
         assert!(
@@ -344,7 +345,7 @@ fn a_third_of_the_readings_lost_gives_no_command_that_is_not_finite() {
     for kind in ["nan", "missing"] {
         let lost =
             file(&directory, &format!("{kind}.yaml"), &format!("sensor:\n  lost: {{share: 30 %, kind: {kind}}}\n"));
-        let arguments = ["run", &scene, "--policy", "policies/vibrissa.fsm", "--world", "quasistatic", "--json"];
+        let arguments = ["run", &scene, "--policy", "policies/vibrissa.fsm", "--simulator", "quasistatic", "--json"];
         let output = vibrissa(&[&arguments[..], &["--mismatch", &lost, "--uncalibrated"]].concat());
         let results: Value = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
         assert_eq!(results[0]["failsafes"]["count"], 0, "{kind}: {}", results[0]);
@@ -360,7 +361,7 @@ fn an_array_that_is_not_calibrated_needs_a_mismatch() {
         &["bench"],
         &["families", "convex-corner", "--count", "1"],
     ] {
-        let output = vibrissa(&[command, &["--uncalibrated", "--world", "quasistatic"]].concat());
+        let output = vibrissa(&[command, &["--uncalibrated", "--simulator", "quasistatic"]].concat());
         assert_eq!(output.status.code(), Some(2), "{command:?}");
         assert!(stderr(&output).contains("--uncalibrated has no effect"), "{command:?}: {}", stderr(&output));
     }

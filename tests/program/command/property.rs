@@ -54,7 +54,7 @@ fn with_local_library(text: &str) -> String {
 
 fn tested(policy: &Path, more: &[&str]) -> (Option<i32>, Value) {
     let policy = policy.to_str().unwrap();
-    let arguments = ["test", policy, "--filter", "any corner", "--world", "quasistatic", "--json"];
+    let arguments = ["test", policy, "--filter", "any corner", "--simulator", "quasistatic", "--json"];
     let output = vibrissa(&[&arguments[..], more].concat());
     let told = stderr(&output);
     let results: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|fault| panic!("{fault}: {told}"));
@@ -146,7 +146,7 @@ fn a_threshold_is_found_and_shrunk_to_its_boundary_and_the_case_is_kept() {
     let scene = out.join("01-turns-any-corner.yaml");
     let (scene, text) = (scene.to_str().unwrap(), policy.to_str().unwrap());
     let speed = "speed=50 mm/s";
-    let run = ["run", scene, "--policy", text, "--set", speed, "--world", "quasistatic", "--json"];
+    let run = ["run", scene, "--policy", text, "--set", speed, "--simulator", "quasistatic", "--json"];
     let output = vibrissa(&run);
     let run: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(run[0]["reason"], "the corner is too flat");
@@ -172,7 +172,7 @@ fn a_property_that_holds_tells_its_cases_and_keeps_nothing() {
     let policy =
         quick("property-holds", "property \"it ends\" over tunnel-mouth { expect run.failed and run.time < 1 s }");
     let text = policy.to_str().unwrap();
-    let output = vibrissa(&["test", text, "--cases", "3", "--world", "quasistatic"]);
+    let output = vibrissa(&["test", text, "--cases", "3", "--simulator", "quasistatic"]);
     assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
     assert!(stdout(&output).contains("it ends (3 cases of tunnel-mouth, in "), "{}", stdout(&output));
     assert!(!policy.with_file_name("policy.regressions.yaml").exists());
@@ -181,7 +181,7 @@ fn a_property_that_holds_tells_its_cases_and_keeps_nothing() {
 #[test]
 fn a_failing_property_is_shown_with_its_simplest_scene() {
     let policy = quick("property-fails", "property \"it goes on\" over polygon { expect not run.failed }");
-    let output = vibrissa(&["test", policy.to_str().unwrap(), "--world", "quasistatic"]);
+    let output = vibrissa(&["test", policy.to_str().unwrap(), "--simulator", "quasistatic"]);
     let (code, told, shown) = (output.status.code(), stderr(&output), stdout(&output));
     assert_eq!(code, Some(1), "{told}");
     assert!(told.contains("the simplest case that fails: the simplest scene"), "{told}");
@@ -199,7 +199,7 @@ fn a_failing_property_is_shown_with_its_simplest_scene() {
 fn kept_cases_of_other_properties_and_outside_of_the_ranges_are_left_out() {
     let property = "property \"it goes on\" over thin-wall(thickness = 10 mm) { expect not run.failed }";
     let policy = quick("property-kept", property);
-    let run = || vibrissa(&["test", policy.to_str().unwrap(), "--world", "quasistatic", "--json"]);
+    let run = || vibrissa(&["test", policy.to_str().unwrap(), "--simulator", "quasistatic", "--json"]);
     let kept = || -> Value { serde_json::from_slice(&run().stdout).unwrap() };
     assert_eq!(kept()[0]["property"]["kept"], 0);
     assert_eq!(kept()[0]["property"]["kept"], 1);

@@ -39,7 +39,8 @@ fn the_command_on_the_page_of_a_comparison_repeats_it() {
     let policies = ["bang", "vibrissa"].map(|name| format!("{ROOT}/policies/{name}.fsm"));
     let policies = [policies[0].as_str(), &policies[1]];
     let arguments = |seeds| {
-        let options = ["--seeds", seeds, "--jitter", "10 mm", "--world", "quasistatic", "--out", out.to_str().unwrap()];
+        let options =
+            ["--seeds", seeds, "--jitter", "10 mm", "--simulator", "quasistatic", "--out", out.to_str().unwrap()];
         [&["compare"][..], &policies, &[&scenario], &options]
             .concat()
             .into_iter()
@@ -97,7 +98,7 @@ fn only_the_first_line_of_a_file_has_the_origin() {
     let directory = directory("provenance-lines");
     let ticks = directory.join("ticks.jsonl");
     let scenario = scenario(&directory);
-    vibrissa(&["run", &scenario, "--world", "quasistatic", "--ticks", ticks.to_str().unwrap()]);
+    vibrissa(&["run", &scenario, "--simulator", "quasistatic", "--ticks", ticks.to_str().unwrap()]);
     let lines: Vec<Value> = read(&ticks).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert!(lines.len() > 2 && lines[0]["provenance"]["scenes"][0] == "disk");
     assert!(lines[1..].iter().all(|line| line["provenance"].is_null()));
@@ -111,7 +112,7 @@ fn random_scenes_end_in_a_page_with_rates_and_the_pictures_of_runs_that_did_not_
     let (path, out) = (directory.join("blind.fsm"), directory.join("out"));
     fs::write(&path, policy).unwrap();
     let fixed =
-        ["families", "convex-corner", "--count", "2", "--world", "quasistatic", "--policy", path.to_str().unwrap()];
+        ["families", "convex-corner", "--count", "2", "--simulator", "quasistatic", "--policy", path.to_str().unwrap()];
     let output = dated(&[&fixed[..], &["--out", out.to_str().unwrap()]].concat());
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let page = read(&out.join("index.html"));
@@ -160,7 +161,7 @@ fn a_changed_policy_has_another_hash_on_the_page() {
         fs::write(&path, text).unwrap();
         let out = directory.join("out").display().to_string();
         let policy = path.to_str().unwrap();
-        let output = dated(&["run", &scenario, "--policy", policy, "--world", "quasistatic", "--out", &out]);
+        let output = dated(&["run", &scenario, "--policy", policy, "--simulator", "quasistatic", "--out", &out]);
         assert!(output.status.code() < Some(2), "{}", stderr(&output));
         let page = read(&directory.join("out/index.html"));
         page.split_once("hashes of policies").unwrap().1.split_once("</dd>").unwrap().0.to_owned()
@@ -175,7 +176,7 @@ fn a_page_has_seeds_of_a_mismatch_only_if_it_has_ranges() {
     let seeds = |text: &str| {
         fs::write(&path, text).unwrap();
         let (out, mismatch) = (directory.join("out").display().to_string(), path.display().to_string());
-        let command = ["run", &scenario, "--policy", "thesis", "--world", "quasistatic", "--uncalibrated"];
+        let command = ["run", &scenario, "--policy", "thesis", "--simulator", "quasistatic", "--uncalibrated"];
         let output = dated(&[&command[..], &["--mismatch", &mismatch, "--out", &out]].concat());
         assert!(output.status.code() < Some(2), "{}", stderr(&output));
         let page = read(&directory.join("out/index.html"));

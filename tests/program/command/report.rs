@@ -30,7 +30,7 @@ fn the_page_of_runs_begins_with_the_run_that_failed_and_its_reason() {
     let directory = directory("report-run");
     let out = directory.display().to_string();
     let box_scene = "scenarios/box.yaml";
-    let output = vibrissa(&["run", box_scene, &failing(&directory), "--world", "quasistatic", "--out", &out]);
+    let output = vibrissa(&["run", box_scene, &failing(&directory), "--simulator", "quasistatic", "--out", &out]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stdout(&output).contains("index.html"));
     let page = fs::read_to_string(directory.join("index.html")).unwrap();
@@ -58,7 +58,7 @@ fn a_comparison_is_written_as_sentences_with_the_verdicts_of_its_document() {
     let directory = directory("report-compare");
     let out = directory.display().to_string();
     let files = ["policies/bang.fsm", "policies/thesis.fsm", "scenarios/disk.yaml", "scenarios/rounded-rectangle.yaml"];
-    let output = vibrissa(&[&["compare", "--world", "quasistatic", "--out", &out], &files[..]].concat());
+    let output = vibrissa(&[&["compare", "--simulator", "quasistatic", "--out", &out], &files[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let document: Value =
         serde_json::from_str(&fs::read_to_string(directory.join("comparison.json")).unwrap()).unwrap();
@@ -125,7 +125,7 @@ fn the_changes_since_an_older_bench_need_that_bench() {
     let directory = directory("report-older");
     fs::write(directory.join("results.json"), "[{\"format\": \"tick\"}]").unwrap();
     let [older, out] = [directory.clone(), directory.join("new")].map(|path| path.display().to_string());
-    let output = vibrissa(&["bench", "--out", &out, "--against", &older, "--world", "quasistatic"]);
+    let output = vibrissa(&["bench", "--out", &out, "--against", &older, "--simulator", "quasistatic"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("is no older report"), "{}", stderr(&output));
     assert!(!Path::new(&out).exists(), "the bench ran before the error");

@@ -43,7 +43,7 @@ fn built_in_scenes_and_policies_have_names_everywhere() {
         stdout(&output)
     };
     let figures = |arguments: &[&str]| {
-        let text = run(&[&["run", "--world", "quasistatic", "--json"], arguments].concat());
+        let text = run(&[&["run", "--simulator", "quasistatic", "--json"], arguments].concat());
         let mut results: serde_json::Value = serde_json::from_str(&text).unwrap();
         ["scene", "policy", "error_mm"].map(|key| results[0][key].take())
     };
@@ -78,7 +78,7 @@ fn a_scenario_sets_parameters_of_its_policy_and_the_command_line_sets_them_again
         path
     };
     let time = |path: &str, arguments: &[&str]| {
-        let output = vibrissa(&[&["run", path, "--world", "quasistatic", "--json"], arguments].concat());
+        let output = vibrissa(&[&["run", path, "--simulator", "quasistatic", "--json"], arguments].concat());
         let results: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
         results[0]["sim_s"].as_f64().unwrap()
     };
@@ -104,7 +104,7 @@ fn a_scenario_sets_parameters_of_its_policy_and_the_command_line_sets_them_again
 fn a_scene_that_a_family_prints_runs_as_it_is_and_as_it_says_at_its_speed() {
     let path = directory("printed").join("scene.yaml").display().to_string();
     let result = |arguments: &[&str]| {
-        let output = vibrissa(&[arguments, &["--world", "quasistatic", "--json"]].concat());
+        let output = vibrissa(&[arguments, &["--simulator", "quasistatic", "--json"]].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let mut results: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
         ["policy", "outcome", "sim_s", "error_mm", "coverage"].map(|key| results[0][key].take())
@@ -302,7 +302,8 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
         let file = out.join("plus.yaml");
         std::fs::write(&file, PLUS).unwrap();
         let [file, shown] = [&file, &out].map(|path| path.display().to_string());
-        let arguments = ["run", &file, "--policy", "policies/vibrissa.fsm", "--world", "quasistatic", "--out", &shown];
+        let arguments =
+            ["run", &file, "--policy", "policies/vibrissa.fsm", "--simulator", "quasistatic", "--out", &shown];
         let output = vibrissa(&arguments);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         let (told, table) = (stderr(&output), stdout(&output));
@@ -324,7 +325,8 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
             let scene = directory("untold_friction").join("scene.yaml");
             let text = std::fs::read_to_string("scenarios/disk.yaml").unwrap();
             std::fs::write(&scene, format!("{text}rig: {rig}\n")).unwrap();
-            let output = vibrissa(&["run", scene.to_str().unwrap(), "--policy", "vibrissa", "--world", "quasistatic"]);
+            let output =
+                vibrissa(&["run", scene.to_str().unwrap(), "--policy", "vibrissa", "--simulator", "quasistatic"]);
             stderr(&output).lines().filter(|line| line.contains("seems dead")).map(str::to_owned).collect::<Vec<_>>()
         };
         let untold = friction("{physics: {friction: 1}}");
@@ -347,7 +349,7 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
             "scenarios/round-tunnel.yaml",
             "--policy",
             "policies/vibrissa.fsm",
-            "--world",
+            "--simulator",
             "quasistatic",
             "--mismatch",
             &mismatch,
@@ -445,7 +447,7 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
 #[cfg(not(feature = "sim"))]
 #[test]
 fn a_build_without_the_simulator_says_so() {
-    let output = vibrissa(&["run", "scenarios/disk.yaml", "--world", "mujoco"]);
+    let output = vibrissa(&["run", "scenarios/disk.yaml", "--simulator", "mujoco"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("feature `sim`"), "{}", stderr(&output));
 }
@@ -461,7 +463,7 @@ fn world_of(arguments: &[&str]) -> String {
 #[test]
 fn the_world_is_the_one_asked_for_or_the_scenarios_or_the_one_that_there_is() {
     let disk = "scenarios/disk.yaml";
-    assert_eq!(world_of(&[disk, "--world", "quasistatic"]), "quasistatic");
+    assert_eq!(world_of(&[disk, "--simulator", "quasistatic"]), "quasistatic");
     let usual = if cfg!(feature = "sim") { "mujoco" } else { "quasistatic" };
     assert_eq!(world_of(&[disk]), usual);
     let scenario = std::fs::read_to_string(disk).unwrap() + "\nworld: quasistatic\n";
@@ -484,7 +486,7 @@ fn tables_are_at_most_a_hundred_characters_wide_unless_all_columns_are_asked_for
         &["compare", "policies/vibrissa.fsm", "policies/thesis.fsm", &scenario],
     ];
     for command in commands {
-        let command = [command, &["--world", "quasistatic"]].concat();
+        let command = [command, &["--simulator", "quasistatic"]].concat();
         let [fitted, wide] = [&[][..], &["--wide"]].map(|columns| stdout(&vibrissa(&[&command[..], columns].concat())));
         assert!(fitted.lines().all(|line| line.chars().count() <= 100), "{fitted}");
         assert!(!wide.contains("--wide") && wide.lines().any(|line| line.chars().count() > 100), "{wide}");

@@ -40,7 +40,7 @@ fn printed(arguments: &[&str]) -> Value {
 fn what_commands_write_is_as_the_schemas_say() {
     let directory = directory("schema");
     let path = |name: &str| directory.join(name).display().to_string();
-    let world = ["--world", "quasistatic"];
+    let world = ["--simulator", "quasistatic"];
     let ticks = path("ticks.jsonl");
     let disk = fs::read_to_string("scenarios/disk.yaml").unwrap().replace("../policies", &format!("{ROOT}/policies"));
     let scenario = path("disk.yaml");

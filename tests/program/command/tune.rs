@@ -13,7 +13,7 @@ fn tune(out: &Path, more: &[&str]) -> std::process::Output {
     let [policy, disk, octagon] =
         ["policies/thesis.fsm", "scenarios/disk.yaml", "scenarios/octagon.yaml"].map(|path| format!("{ROOT}/{path}"));
     let out = out.display().to_string();
-    let mut arguments = vec!["tune", &policy, "--world", "quasistatic", "--param", "target", "--param", "light"];
+    let mut arguments = vec!["tune", &policy, "--simulator", "quasistatic", "--param", "target", "--param", "light"];
     arguments.extend(["--set", "target=700 urad", "--scene", &disk, "--held-out", &octagon, "--runs", "14"]);
     arguments.extend(["--json", "--out", &out]);
     arguments.extend(more);

@@ -116,7 +116,7 @@ pub(super) const REGRESSIONS: Case = Case {
         let machine = POLICY.split("test").next().unwrap();
         Content::from([("quick.fsm".to_owned(), format!("{machine}{property}").into())])
     },
-    arguments: |folder| words("test @/out/quick.fsm --cases 1 --jobs 1 --world quasistatic", folder),
+    arguments: |folder| words("test @/out/quick.fsm --cases 1 --jobs 1 --simulator quasistatic", folder),
     old,
     is_long: false,
 };
@@ -125,7 +125,10 @@ pub(super) const FAMILIES: Case = Case {
     name: "families",
     prepare: policy,
     arguments: |folder| {
-        words("families convex-corner --count 1 --policy @/quick.fsm --world quasistatic --jobs 1 --out @/out", folder)
+        words(
+            "families convex-corner --count 1 --policy @/quick.fsm --simulator quasistatic --jobs 1 --out @/out",
+            folder,
+        )
     },
     old,
     is_long: false,
@@ -134,7 +137,7 @@ pub(super) const FAMILIES: Case = Case {
 pub(super) const BENCH: Case = Case {
     name: "bench",
     prepare: policy,
-    arguments: |folder| words("bench --policy @/quick.fsm --world quasistatic --jobs 1 --out @/out", folder),
+    arguments: |folder| words("bench --policy @/quick.fsm --simulator quasistatic --jobs 1 --out @/out", folder),
     old,
     is_long: true,
 };

@@ -236,7 +236,8 @@ fn a_sweep_keeps_every_line_that_it_has_written_and_goes_on() {
 fn tuning_keeps_every_line_that_it_has_written_and_goes_on() {
     let folder = directory("fault-tune").canonicalize().unwrap();
     let policy = case::tuned_in(&folder);
-    let arguments = ["tune", &policy, "--scene", "polygon", "--count", "1", "--runs", "5", "--world", "quasistatic"];
+    let arguments =
+        ["tune", &policy, "--scene", "polygon", "--count", "1", "--runs", "5", "--simulator", "quasistatic"];
     keeps_every_line(&folder, &arguments, case::TUNE_RUNS);
 }
 

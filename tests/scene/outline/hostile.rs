@@ -87,6 +87,21 @@ fn elements_that_repeat_each_other_come_to_an_end() {
 }
 
 #[test]
+fn a_use_that_draws_itself_is_named() {
+    let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.0, ..ReadOptions::default() };
+    for (drawing, named) in [
+        ("<g id='a'><circle r='5'/><use href='#a'/></g>", "#a"),
+        ("<symbol id='s'><g><use href='#s'/></g></symbol><use href='#s'/>", "#s"),
+        ("<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>", "#b"),
+        ("<use id='u' href='#u'/>", "#u"),
+    ] {
+        let error = read(format!("<svg>{drawing}</svg>").as_bytes(), Format::Svg, &options).unwrap_err();
+        let reason = format!("`use` of `{named}` draws itself");
+        assert_eq!(error.fault, OutlineFault::Syntax { reason }, "{drawing}");
+    }
+}
+
+#[test]
 fn what_draws_nothing_is_bounded_too() {
     let options = ReadOptions { unit: Some(1e-3), element: None, height: 0.0, ..ReadOptions::default() };
     let read = |inner: &str| read(format!("<svg>{inner}</svg>").as_bytes(), Format::Svg, &options).unwrap_err();

@@ -35,7 +35,8 @@ fn contour(scene: &Scene, program: &Program, prune: bool) -> Vec<Point2> {
 /// Runs that many scenes of every family for so long (s), with and without; how many points there were.
 fn compare(trials: u64, time: f64) -> usize {
     let policy = thesis();
-    let keys: Vec<_> = FAMILIES.iter().flat_map(|family| (0..trials).map(move |trial| (family, trial))).collect();
+    let families = FAMILIES;
+    let keys: Vec<_> = families.iter().flat_map(|family| (0..trials).map(move |trial| (family, trial))).collect();
     let counts = in_parallel(
         &keys,
         processors(),

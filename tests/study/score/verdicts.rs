@@ -123,8 +123,8 @@ fn wrong(scene: &Scene, run: &Run) -> Option<String> {
 /// many runs passed.
 fn passed_runs(world: WorldKind, seed: u64, trials: u64) -> usize {
     let policy = program();
-    let families = || FAMILIES.iter().filter(|family| family.is_default);
-    let keys: Vec<_> = families().flat_map(|family| (0..trials).map(move |trial| (family, trial))).collect();
+    let families: Vec<Family> = FAMILIES.into_iter().filter(|family| family.is_default).collect();
+    let keys: Vec<_> = families.iter().flat_map(|family| (0..trials).map(move |trial| (family, trial))).collect();
     let run = |&(family, trial): &(&Family, u64)| {
         let Draw { scene, speed, .. } = family.draw(seed, trial).unwrap();
         let mut program = policy.clone();
@@ -141,7 +141,7 @@ fn passed_runs(world: WorldKind, seed: u64, trials: u64) -> usize {
         (passed, tips.len(), tips.iter().filter(|tip| tip.is_outlier()).count())
     };
     let runs = in_parallel(&keys, processors(), run, |_| ());
-    for (family, runs) in families().zip(runs.chunks(usize::try_from(trials).unwrap())) {
+    for (family, runs) in families.iter().zip(runs.chunks(usize::try_from(trials).unwrap())) {
         let (tips, outliers) = runs.iter().fold((0, 0), |sum, (_, tips, outliers)| (sum.0 + tips, sum.1 + outliers));
         assert!(500 * outliers < tips, "{} of seed {seed} in {world}: {outliers} outliers of {tips} tips", family.name);
     }

@@ -5,7 +5,7 @@ use crate::results::{NoKey, number, value};
 
 /// The calibrations of arrays that are drawn from the ranges of tolerances, in the quasi-static simulator.
 pub(super) const CALIBRATIONS: &str =
-    "calibrate --self --mismatch scenarios/mismatch/array.yaml --world quasistatic --arrays 100 --json";
+    "calibrate --self --mismatch scenarios/mismatch/array.yaml --simulator quasistatic --arrays 100 --json";
 
 /// The shares of arrays with their true parameters within the ellipsoids that are right.
 const RIGHT: [f64; 2] = [0.90, 0.99];

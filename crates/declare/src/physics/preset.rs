@@ -4,33 +4,24 @@ use vibrissa_runtime::rig::{Rig, Shaft};
 
 use super::{Integrator, Physics, ShaftModel};
 
-/// A predefined rig. A scenario states only the differences from it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Preset {
-    /// The reference rig.
-    #[default]
-    Reference,
-    /// The reference rig with the whiskers of the peer, the baseline's public program: cables of 40 links, soft
-    /// contacts, steps of 1.67 ms.
-    PeerCable,
-    /// The array of the thesis, with half of the step of the reference rig.
-    ThesisArray,
+vibrissa_runtime::kinds! {
+    /// A predefined rig. A scenario states only the differences from it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Preset,
+    /// The name in scenarios.
+    fn name {
+        /// The reference rig.
+        #[default]
+        Reference = "reference",
+        /// The reference rig with the whiskers of the peer, the baseline's public program: cables of 40 links, soft
+        /// contacts, steps of 1.67 ms.
+        PeerCable = "peer_cable",
+        /// The array of the thesis, with half of the step of the reference rig.
+        ThesisArray = "thesis_array",
+    }
 }
 
 impl Preset {
-    /// All presets.
-    pub const ALL: [Self; 3] = [Self::Reference, Self::PeerCable, Self::ThesisArray];
-
-    /// The name in scenarios.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Reference => "reference",
-            Self::PeerCable => "peer_cable",
-            Self::ThesisArray => "thesis_array",
-        }
-    }
-
     /// Returns the rig and its physics settings.
     #[must_use]
     pub fn rig(self) -> (Rig, Physics) {

@@ -31,7 +31,7 @@ pub struct EmulatedResult {
     /// Time at which the run has ended (ns).
     pub ended_ns: u64,
     /// Missed periods of each phase.
-    pub missed: [u64; Phase::COUNT],
+    pub missed: [u64; Phase::ALL.len()],
 }
 
 /// A trial that cannot be emulated.

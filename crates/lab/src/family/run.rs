@@ -10,7 +10,7 @@ use crate::results::RunResult;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FamilyRun {
     /// The family.
-    pub family: &'static str,
+    pub family: String,
     /// Number of the scene within the family.
     pub trial: u64,
     /// Description of the scene.

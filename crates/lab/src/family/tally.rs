@@ -11,7 +11,7 @@ use super::run::FamilyRun;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FamilyTally {
     /// The family.
-    pub family: &'static str,
+    pub family: String,
     /// The speed (m/s). `None` for all speeds together.
     pub speed: Option<f64>,
     /// The counts.
@@ -22,10 +22,10 @@ pub struct FamilyTally {
 impl FamilyTally {
     /// Counts the runs of a family at one speed, or at all speeds.
     #[must_use]
-    pub fn new(family: &'static str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
+    pub fn new(family: &str, speed: Option<f64>, runs: &[FamilyRun]) -> Self {
         let is_counted =
             |run: &&FamilyRun| run.family == family && speed.is_none_or(|speed| (run.speed - speed).abs() < 1e-9);
         let figures = runs.iter().filter(is_counted).map(|run| Figures::new(&run.result));
-        Self { family, speed, tally: Tally::new(figures) }
+        Self { family: family.to_owned(), speed, tally: Tally::new(figures) }
     }
 }

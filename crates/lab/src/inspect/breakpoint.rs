@@ -132,6 +132,21 @@ impl Breakpoints {
         disable(&mut explained, first);
         Ok(Self { explained, breakpoints })
     }
+
+    /// Explains a policy and adds those of the breakpoints that it can have. The others are the second part of the result.
+    ///
+    /// # Errors
+    /// Those of a policy that does not compile.
+    pub fn possible(source: &Source, texts: &[String]) -> Result<(Self, Vec<String>), Vec<Diagnostic>> {
+        if let Ok(policy) = Self::new(source, texts) {
+            return Ok((policy, Vec::new()));
+        }
+        let is_possible = |text: &&String| Self::new(source, std::slice::from_ref(*text)).is_ok();
+        let (possible, others): (Vec<&String>, Vec<&String>) = texts.iter().partition(is_possible);
+        let possible: Vec<String> = possible.into_iter().cloned().collect();
+        let policy = Self::new(source, &possible).map_err(|(_, faults)| faults)?;
+        Ok((policy, others.into_iter().cloned().collect()))
+    }
 }
 
 impl Breakpoint {

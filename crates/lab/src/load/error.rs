@@ -50,6 +50,12 @@ pub enum LoadError {
         /// The file.
         path: PathBuf,
     },
+    /// The scenario draws nothing, so it is no family.
+    #[error("{} has no section `draw`, so it is one scene and no family; run it with `vibrissa run`, or draw its values", path.display())]
+    NoFamily {
+        /// The file.
+        path: PathBuf,
+    },
     /// The text has errors.
     #[error("{}", faults.len())]
     Faults {

@@ -1,8 +1,10 @@
 //! Mismatches.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
+use vibrissa_runtime::machine::Program;
 
 use super::seed::{WithoutEffect, check_mismatch_seed};
 use super::sought::Sought;
@@ -10,7 +12,7 @@ use super::text::{SIZE_LIMIT, name, text};
 use super::{LoadError, Loaded};
 use crate::built_in::PLAUSIBLE_MISMATCH;
 use crate::calibration::{ArrayCalibrationError, ArrayCalibrations};
-use crate::trial::{Trial, short_hash};
+use crate::trial::{Inputs, Trial, TrialFault, short_hash};
 use vibrissa_text::diagnostic::Source;
 use vibrissa_text::file::CommandFiles;
 use vibrissa_world::mismatch::{Mismatch, MismatchError};
@@ -109,6 +111,28 @@ impl GivenMismatch {
     /// [`ArrayCalibrationError`] if the array cannot be calibrated.
     pub fn calibrate_scene(&self, scene: &mut Scene, world: WorldSetup) -> Result<(), ArrayCalibrationError> {
         self.calibrations.as_ref().map_or(Ok(()), |calibrations| calibrations.calibrate(scene, world))
+    }
+
+    /// The trial with this `number` of a scene, by the path of its scenario, under a program whose policy has this hash. The hash of
+    /// the scenario is that of the scene with the mismatch. The array is not yet [calibrated](Self::calibrate).
+    ///
+    /// # Errors
+    /// [`TrialFault::Mismatch`] if the mismatch does not fit to the rig.
+    pub fn trial(
+        &self,
+        (path, scene): (&Path, Loaded<Scene>),
+        (program, policy_hash): (&Arc<Program>, Sha256),
+        world: WorldSetup,
+        number: u64,
+    ) -> Result<Trial, TrialFault> {
+        let Loaded { value: mut scene, hash: mut scenario_hash } = scene;
+        let scenario = path.to_owned();
+        if let Err(cause) = self.apply(&mut scene, &mut scenario_hash, number) {
+            return Err(TrialFault::Mismatch { scenario, cause });
+        }
+        let [scenario_hash, policy_hash] = [scenario_hash, policy_hash].map(|hash| short_hash(&hash.finalize()));
+        let inputs = Inputs { scenario, scenario_hash, policy_hash, ..Inputs::default() };
+        Ok(Trial { world, inputs, ..Trial::new(scene, Arc::clone(program)) })
     }
 
     /// Adds the mismatch to the `scene` of the run with this `number`, and to its `hash`. The array of each run has the

@@ -21,8 +21,8 @@ pub use policy::{
 #[cfg(feature = "robot")]
 pub use recording::recording;
 pub use scenario::{
-    beside, built_in_scenario, contact_sets, count_sets, outline_file, rig_in, scenario, scenario_in, scenario_text,
-    touches,
+    beside, built_in_scenario, contact_sets, count_sets, drawn_scenes, family, outline_file, rig_in, scenario,
+    scenario_in, scenario_text, touches,
 };
 pub use seed::{WithoutEffect, check_noise_seed};
 pub use sought::{Sought, is_scenario};

@@ -12,7 +12,7 @@ use crate::built_in::{DEFAULT_POLICY, NAMED_SCENARIOS, POLICIES, TextFile};
 use vibrissa_language::chart::Chart;
 use vibrissa_language::{Analysis, Compiled, Library, PolicyTest, gather_and_compile};
 use vibrissa_text::diagnostic::{Diagnostic, Source};
-use vibrissa_text::file::CommandFiles;
+use vibrissa_text::file::{Cache, CommandFiles, hex};
 use vibrissa_world::scenario;
 use vibrissa_world::scene::{PolicyReference, PolicySetting, Scene};
 
@@ -73,7 +73,7 @@ pub struct PolicyText {
     pub source: Source,
     /// Warnings about probable mistakes.
     pub warnings: Vec<Diagnostic>,
-    /// The tests in it.
+    /// The tests in it. Only [`tested_policy`] has those of a built-in policy.
     pub tests: Vec<PolicyTest>,
     /// True if the text is a test file. Then the program is that of the tested machine.
     pub(crate) is_test_file: bool,
@@ -84,7 +84,13 @@ pub struct PolicyText {
 /// # Errors
 /// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
-    let policy = tested_policy(path, files)?;
+    let file = policy_file(path, files)?;
+    if let PolicyFile::Text(source) = &file.value
+        && let Some(policy) = kept_built_in(source)
+    {
+        return Ok(policy);
+    }
+    let policy = of_file(file, files)?;
     match &policy.value.text {
         Some(text) if text.is_test_file => Err(LoadError::TestFile { path: path.to_owned() }),
         _ => Ok(policy),
@@ -96,11 +102,44 @@ pub fn policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, L
 /// # Errors
 /// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn tested_policy(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
-    let Loaded { value, hash } = policy_file(path, files)?;
+    of_file(policy_file(path, files)?, files)
+}
+
+fn of_file(Loaded { value, hash }: Loaded<PolicyFile>, files: &mut CommandFiles) -> Result<Loaded<Policy>, LoadError> {
     match value {
         PolicyFile::Machine(artifact) => Ok(Loaded { value: Policy { artifact: *artifact, text: None }, hash }),
         PolicyFile::Text(source) => policy_in(&source, files),
     }
+}
+
+/// The folder of machines in the cache of the user.
+const MACHINES: &str = "machines";
+
+/// The built-in policy with this text, through the cache of the user. `None` for another text, or without a cache.
+fn kept_built_in(source: &Source) -> Option<Loaded<Policy>> {
+    let is_built_in = POLICIES.iter().any(|file| file.text == source.text);
+    if is_built_in { built_in_from(&Cache::of_user(MACHINES)?, source) } else { None }
+}
+
+/// A built-in policy with its machine from a cache, which has it afterwards. `None` for a text with errors.
+fn built_in_from(cache: &Cache, source: &Source) -> Option<Loaded<Policy>> {
+    let whole = vibrissa_language::gather_modules(source);
+    let hash = Sha256::new().chain_update(&whole.text);
+    let text_sha256: [u8; 32] = hash.clone().finalize().into();
+    // A machine of another compiler is another file.
+    let name = source.name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let key = Sha256::new().chain_update(env!("VIBRISSA_SOURCES")).chain_update(text_sha256).chain_update(name);
+    let key = hex(&key.finalize());
+    let kept = cache.read(&key).and_then(|bytes| Artifact::from_bytes(&bytes).ok());
+    if let Some(artifact) = kept.filter(|artifact| artifact.origin.text_sha256 == text_sha256) {
+        let text = PolicyText { source: whole, warnings: Vec::new(), tests: Vec::new(), is_test_file: false };
+        return Some(Loaded { value: Policy { artifact, text: Some(text) }, hash });
+    }
+    let policy = compiled(source, &mut |_| Err("it is not built into the program".to_owned())).ok()?;
+    if let Ok(bytes) = policy.value.artifact.to_bytes() {
+        cache.write(&key, &bytes);
+    }
+    Some(policy)
 }
 
 /// The policy for the scene that was read from `source`: the requested one, else the one that the scene names, with its
@@ -161,7 +200,8 @@ pub fn program(path: &Path, files: &mut CommandFiles) -> Result<Loaded<Program>,
 /// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn built_in_policy(file: &TextFile) -> Result<Loaded<Policy>, LoadError> {
     let source = Source::new(file.path, file.text);
-    compiled(&source, &mut |_| Err("it is not built into the program".to_owned()))
+    let compiled = || compiled(&source, &mut |_| Err("it is not built into the program".to_owned()));
+    kept_built_in(&source).map_or_else(compiled, Ok)
 }
 
 /// The policy of a text that has been read, with the files that it uses.
@@ -232,6 +272,34 @@ pub fn with_settings<'s>(policy: Sha256, settings: impl Iterator<Item = (&'s str
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
+
+    #[test]
+    fn a_machine_from_the_cache_is_that_of_the_text() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::at(folder.path().to_owned());
+        for file in POLICIES {
+            let source = Source::new(file.path, file.text);
+            let expected = compiled(&source, &mut |_| Err("it is not built in".to_owned())).unwrap();
+            // Compiled, from the cache, and compiled again because the file in the cache is that of another policy.
+            for pass in 0..3 {
+                let found = built_in_from(&cache, &source).unwrap();
+                assert_eq!(found.value.artifact, expected.value.artifact, "{pass}");
+                assert_eq!(found.value.text.unwrap().source, expected.value.text.as_ref().unwrap().source);
+                assert_eq!(found.hash.finalize(), expected.hash.clone().finalize());
+                if pass == 1 {
+                    let files = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+                    let keys: Vec<_> = files.map(|name| name.into_string().unwrap()).collect();
+                    assert!(!keys.is_empty());
+                    let other = vibrissa_language::compile_with_warnings(&Source::new("still.fsm", STILL)).unwrap();
+                    for key in keys {
+                        cache.write(&key, &other.artifact.to_bytes().unwrap());
+                    }
+                }
+            }
+        }
+    }
+
+    const STILL: &str = "machine still  initial Still  state Still { stop }";
 
     /// No run analyses a built-in policy.
     #[test]

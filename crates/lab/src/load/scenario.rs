@@ -11,10 +11,11 @@ use super::text::{SIZE_LIMIT, name, read, reason, text};
 use super::{LoadError, Loaded};
 use crate::built_in::TextFile;
 use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_touches};
+use crate::family::Family;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_text::file::CommandFiles;
 use vibrissa_world::outline;
-use vibrissa_world::scenario;
+use vibrissa_world::scenario::{self, DrawnScenario};
 use vibrissa_world::scene::Scene;
 
 /// Reads a scenario with the files that it refers to. The hash is that of all of them.
@@ -33,6 +34,25 @@ pub fn scenario_text(path: &Path, files: &mut CommandFiles) -> Result<Source, Lo
     let name = name(path)?;
     let bytes = Sought::Scenario.bytes(path, SIZE_LIMIT, files)?;
     Ok(Source::new(name, text(&bytes).map_err(LoadError::read(path))?))
+}
+
+/// Reads the family of a scenario whose values are drawn.
+///
+/// # Errors
+/// [`LoadError`] if the file cannot be read, its text has errors, or it draws nothing.
+pub fn family(path: &Path, files: &mut CommandFiles) -> Result<Family, LoadError> {
+    drawn_scenes(&scenario_text(path, files)?)?.ok_or_else(|| LoadError::NoFamily { path: path.to_owned() })
+}
+
+/// The family of the text of a scenario. `None` if it draws nothing.
+///
+/// # Errors
+/// [`LoadError`] if what it draws has errors.
+pub fn drawn_scenes(source: &Source) -> Result<Option<Family>, LoadError> {
+    match DrawnScenario::read(source) {
+        Ok(scenario) => Ok(scenario.map(Family::written)),
+        Err(faults) => Err(LoadError::Faults { source_text: Box::new(source.clone()), faults }),
+    }
 }
 
 /// The scenario of a text that has been read, with the files that it refers to.

@@ -8,7 +8,7 @@ use vibrissa_world::scene::Scene;
 pub enum WithoutEffect {
     /// The seed of the values of a mismatch.
     #[error(
-        "the seed of the mismatch (--mismatch-seed) has no effect, because no value of a mismatch is a range; leave it out, or give \
+        "the seed of the mismatch has no effect, because no value of a mismatch is a range; leave it out, or give \
          ranges as in scenarios/mismatch/array.yaml"
     )]
     Mismatch,
@@ -23,8 +23,8 @@ pub enum WithoutEffect {
     Cases,
     /// The seed of the noise.
     #[error(
-        "the seed of the noise (--seed) has no effect, because nothing has noise; leave it out, or add noise: --noise of `bench` \
-         and `calibrate`, `rig.sensing` of a scenario, or `sensor` and `pose` of a mismatch"
+        "the seed of the noise has no effect, because nothing has noise; leave it out, or add noise: `rig.sensing` of a scenario, \
+         `sensor` and `pose` of a mismatch, or the noise that `bench` and `calibrate` take"
     )]
     Noise,
 }

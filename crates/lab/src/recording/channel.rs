@@ -7,40 +7,26 @@ use serde_json::{Value, json};
 
 use super::error::RecordError;
 
-/// A channel whose messages are JSON.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum JsonChannel {
-    /// The samples before each tick.
-    Samples,
-    /// Perception and command of each tick, as `run --ticks` writes them.
-    Ticks,
-    /// The state after each tick.
-    State,
-    /// The guards that were tried in each tick.
-    Guards,
-    /// The transitions that were taken.
-    Transitions,
+vibrissa_runtime::kinds! {
+    /// A channel whose messages are JSON.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(super) enum JsonChannel,
+    /// The topic.
+    fn topic {
+        /// The samples before each tick.
+        Samples = "samples",
+        /// Perception and command of each tick, as `run --ticks` writes them.
+        Ticks = "ticks",
+        /// The state after each tick.
+        State = "state",
+        /// The guards that were tried in each tick.
+        Guards = "guards",
+        /// The transitions that were taken.
+        Transitions = "transitions",
+    }
 }
 
 impl JsonChannel {
-    const ALL: [Self; 5] = [Self::Samples, Self::Ticks, Self::State, Self::Guards, Self::Transitions];
-
-    /// The channel with a topic.
-    pub(super) fn of(topic: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|channel| channel.topic() == topic)
-    }
-
-    /// The topic.
-    pub(super) fn topic(self) -> &'static str {
-        match self {
-            Self::Samples => "samples",
-            Self::Ticks => "ticks",
-            Self::State => "state",
-            Self::Guards => "guards",
-            Self::Transitions => "transitions",
-        }
-    }
-
     /// The name and the text of the schema of its messages.
     fn schema(self) -> (&'static str, &'static str) {
         match self {

@@ -138,7 +138,7 @@ impl RunRecording {
 impl Parts {
     fn read(input: impl Read) -> Result<Self, ReadRecordingError> {
         let mut parts = Self::default();
-        let mut records = Records::new(input, JsonChannel::of);
+        let mut records = Records::new(input, JsonChannel::named);
         while let Some(record) = records.next_record()? {
             match record {
                 FileRecord::Identity(identity) => parts.identity = identity,

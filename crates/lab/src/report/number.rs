@@ -1,6 +1,6 @@
 //! Numbers in tables.
 
-use super::table::NONE;
+use super::table::known;
 use crate::results::Rate;
 
 /// Number of significant digits. A number of fixed decimals would be 0.000 in a simulator without noise.
@@ -26,13 +26,10 @@ pub(crate) const RATES: &str = "Rates in %, with their 95 % intervals after Wils
 
 /// A rate in % with its 95 % interval.
 pub(crate) fn rate(rate: Option<Rate>) -> String {
-    rate.map_or_else(
-        || NONE.to_owned(),
-        |Rate { share, interval }| {
-            let [share, low, high] = [share, interval[0], interval[1]].map(|part| 100.0 * part);
-            format!("{share:.1} ({low:.1}–{high:.1})")
-        },
-    )
+    known(rate, |Rate { share, interval }| {
+        let [share, low, high] = [share, interval[0], interval[1]].map(|part| 100.0 * part);
+        format!("{share:.1} ({low:.1}–{high:.1})")
+    })
 }
 
 /// A number with three significant digits, and all digits before the point.
@@ -67,6 +64,7 @@ pub(crate) fn signed(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::NONE;
     use super::*;
 
     #[test]

@@ -23,7 +23,20 @@ pub struct Table {
     rows: Vec<Vec<String>>,
 }
 
+/// A column: its heading, and the text of a row in it.
+pub(crate) type Column<'c, R> = (&'static str, &'c dyn Fn(&R) -> String);
+
 impl Table {
+    /// A table with a row for each of `rows`, whose first `names` columns name it.
+    pub(crate) fn of<'r, R: 'r>(
+        names: usize,
+        rows: impl IntoIterator<Item = &'r R>,
+        columns: &[Column<'_, R>],
+    ) -> Self {
+        let cells = |row: &R| columns.iter().map(|(_, text)| text(row)).collect();
+        Self::new(names, columns.iter().map(|(heading, _)| *heading), rows.into_iter().map(cells))
+    }
+
     /// A table whose first `names` columns name a row.
     pub fn new<H: Into<String>>(
         names: usize,
@@ -136,6 +149,11 @@ fn wrapped(text: &str, width: usize) -> String {
 /// The number of characters of a text.
 fn length(text: &str) -> usize {
     text.chars().count()
+}
+
+/// The text of a figure, if there is one.
+pub(crate) fn known<T>(figure: Option<T>, text: impl FnOnce(T) -> String) -> String {
+    figure.map_or_else(|| NONE.to_owned(), text)
 }
 
 /// A share (0 to 1) in percent.

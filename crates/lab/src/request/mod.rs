@@ -8,6 +8,5 @@ mod input;
 mod trial_request;
 
 pub use error::RequestError;
-pub use error::RequestFault;
 pub use input::{Input, PolicyInput};
 pub use trial_request::{PreparedPolicy, PreparedTrial, TrialRequest, policy, rig, scene};

@@ -7,11 +7,11 @@ use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{Artifact, ParameterValue};
 use vibrissa_runtime::rig::Rig;
 
-use super::error::{RequestError, RequestFault};
+use super::error::RequestError;
 use super::input::{Input, PolicyInput};
 use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, PolicyText};
 use crate::run::Stopwatch;
-use crate::trial::{Inputs, Trial, short_hash};
+use crate::trial::{Trial, TrialFault};
 use vibrissa_text::diagnostic::{Diagnostic, Source};
 use vibrissa_text::file::CommandFiles;
 use vibrissa_world::scene::{Scene, WorldKind, WorldSetup};
@@ -112,7 +112,7 @@ impl TrialRequest {
             load::check_noise_seed(self.seed, scene()).map_err(LoadError::from)?;
         }
         if let Err(cause) = mismatch.calibrate(&mut trial) {
-            return Err(RequestFault::Calibration { scenario: trial.inputs.scenario, cause }.into());
+            return Err(TrialFault::Calibration { scenario: trial.inputs.scenario, cause }.into());
         }
         Ok(PreparedTrial { trial, policy: policy.into() })
     }
@@ -131,30 +131,20 @@ impl TrialRequest {
         let before = Stopwatch::start();
         let source = scenario_text(&self.scenario, files)?;
         let path = PathBuf::from(&source.name);
-        let Loaded { value: mut scene, hash: mut scenario_hash } = read_scene(&self.scenario, &source, files)?;
-        mismatch
-            .apply(&mut scene, &mut scenario_hash, 0)
-            .map_err(|cause| RequestFault::Mismatch { scenario: path.clone(), cause })?;
+        let loaded = read_scene(&self.scenario, &source, files)?;
+        let scene = &loaded.value;
         let policy = match (&self.policy, &self.scenario) {
             (Some(given), _) => given_policy(given, files)?,
-            (None, Input::BuiltIn(_)) => load::built_in_policy(load::named_by_built_in(&scene))?,
-            (None, _) => load::policy_for(None, &scene, &source, files)?,
+            (None, Input::BuiltIn(_)) => load::built_in_policy(load::named_by_built_in(scene))?,
+            (None, _) => load::policy_for(None, scene, &source, files)?,
         };
         compiled(&policy.value);
         let Loaded { value: policy, hash: policy_hash } = load::set(policy, &self.settings)?;
         let kind = self.world.or(scene.world).unwrap_or_default();
-        let inputs = Inputs {
-            scenario: path,
-            scenario_hash: short_hash(&scenario_hash.finalize()),
-            policy_hash: short_hash(&policy_hash.finalize()),
-            preparation: before.elapsed(),
-        };
-        let trial = Trial {
-            world: WorldSetup { kind, prune: self.prune },
-            seed: self.seed.unwrap_or(scene.seed),
-            inputs,
-            ..Trial::new(scene, Arc::new(policy.artifact.program.clone()))
-        };
+        let (program, world) = (Arc::new(policy.artifact.program.clone()), WorldSetup { kind, prune: self.prune });
+        let mut trial = mismatch.trial((&path, loaded), (&program, policy_hash), world, 0)?;
+        trial.inputs.preparation = before.elapsed();
+        trial.seed = self.seed.unwrap_or(trial.seed);
         Ok((trial, policy))
     }
 }

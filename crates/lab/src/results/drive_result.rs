@@ -64,7 +64,7 @@ impl DriveResult {
         run: RunResult,
         events: &[FaultEvent],
         begun_ns: u64,
-        missed: [u64; Phase::COUNT],
+        missed: [u64; Phase::ALL.len()],
         undetected: &[Injection],
     ) -> Self {
         let missed = Phase::ALL.iter().zip(missed).map(|(phase, count)| (phase.name().to_owned(), count));

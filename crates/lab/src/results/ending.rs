@@ -9,25 +9,29 @@ use crate::score::Score;
 use vibrissa_declare::figures::Metric;
 use vibrissa_world::scene::{Expectation, Outcome, Violation};
 
-/// The outcome of a run, judged by the expectations of its scenario.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Ending {
-    /// The run met its stop condition, and the expectations of its scenario hold.
-    Completed,
-    /// The run met its stop condition, but not all expectations of its scenario hold.
-    Ended,
-    /// The run reached its time limit.
-    Timeout,
-    /// The run failed.
-    Failed,
-    /// The simulation cannot be trusted.
-    Diverged,
-    /// The process of the run crashed.
-    Crashed,
-    /// The run could not begin.
-    Refused,
+vibrissa_runtime::kinds! {
+    /// The outcome of a run, judged by the expectations of its scenario.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "lowercase")]
+    pub enum Ending,
+    /// The name in results and tables.
+    fn name {
+        /// The run met its stop condition, and the expectations of its scenario hold.
+        Completed = "completed",
+        /// The run met its stop condition, but not all expectations of its scenario hold.
+        Ended = "ended",
+        /// The run reached its time limit.
+        Timeout = "timeout",
+        /// The run failed.
+        Failed = "failed",
+        /// The simulation cannot be trusted.
+        Diverged = "diverged",
+        /// The process of the run crashed.
+        Crashed = "crashed",
+        /// The run could not begin.
+        Refused = "refused",
+    }
 }
 
 impl Ending {
@@ -41,20 +45,6 @@ impl Ending {
             Outcome::Failed => Self::Failed,
             Outcome::Diverged => Self::Diverged,
             Outcome::Refused => Self::Refused,
-        }
-    }
-
-    /// The name in results and tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Completed => "completed",
-            Self::Ended => "ended",
-            Self::Timeout => "timeout",
-            Self::Failed => "failed",
-            Self::Diverged => "diverged",
-            Self::Crashed => "crashed",
-            Self::Refused => "refused",
         }
     }
 

@@ -63,7 +63,7 @@ pub struct InputHash {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Simulator {
-    /// Its name, as in `--world`.
+    /// Its name, as in `--simulator`.
     pub name: String,
     /// Its version.
     pub version: String,

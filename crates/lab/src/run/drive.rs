@@ -52,16 +52,15 @@ pub trait Watcher: Observer {
         let _ = (trace, world);
     }
 
-    /// Receives the trace after every tick.
-    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()>;
-}
-
-/// Watches nothing.
-impl Watcher for () {
-    fn after_tick(&mut self, _: &Trace) -> ControlFlow<()> {
+    /// Receives the trace after every tick. A break ends the run.
+    fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
+        let _ = trace;
         ControlFlow::Continue(())
     }
 }
+
+/// Watches nothing.
+impl Watcher for () {}
 
 /// Passes everything on to a watcher, if there is one.
 impl<W: Watcher> Watcher for Option<W> {
@@ -118,7 +117,7 @@ pub fn drive(
     control: Control,
     goal: Goal<'_>,
     period: f64,
-    watcher: &mut impl Watcher,
+    watcher: &mut dyn Watcher,
 ) -> Option<Run> {
     let mut run = SteppedRun::new(control, goal, period);
     loop {

@@ -69,7 +69,7 @@ impl SteppedRun {
 
     /// Simulates one control period under the current command, and executes one tick of the control loop. Its command
     /// is the next one.
-    pub fn step(&mut self, world: &mut dyn World, watcher: &mut impl Watcher) -> Step {
+    pub fn step(&mut self, world: &mut dyn World, watcher: &mut dyn Watcher) -> Step {
         let samples = match world.advance(&self.command) {
             Ok(samples) => samples,
             Err(fault) => return Step::Ended(self.monitor.crashed(&fault)),

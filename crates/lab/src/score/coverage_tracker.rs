@@ -9,7 +9,7 @@ use super::estimate::{distance_from, is_joined};
 use super::lipschitz::stretches_below;
 use super::tip::is_finite;
 use vibrissa_runtime::signal::MAX_WHISKERS;
-use vibrissa_world::geometry::{ContourSet, Point2};
+use vibrissa_world::geometry::{ContourSet, Point2, tree_point};
 
 /// The coverage of an estimate that grows tip by tip.
 ///
@@ -37,7 +37,7 @@ impl CoverageTracker {
     pub fn add(&mut self, whisker: usize, tick: usize, tip: Point2) {
         let Some(last) = self.last.get_mut(whisker).filter(|_| is_finite(&tip)) else { return };
         let before = last.replace((tick, tip)).filter(|&before| is_joined(before, (tick, tip)));
-        let line = Line::new(before.map_or(tip, |(_, tip)| tip).into(), tip.into());
+        let line = Line::new(tree_point(before.map_or(tip, |(_, tip)| tip)), tree_point(tip));
         for (contour, traced) in self.reference.contours().zip(&mut self.traced) {
             let distance = |s, _: Range<f64>| distance_from(&line, contour.point_at(s));
             for new in stretches_below(contour.length(), COVERAGE_TOLERANCE, COVERAGE_RESOLUTION, distance) {

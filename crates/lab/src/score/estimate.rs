@@ -10,7 +10,7 @@ use super::lipschitz::Foot;
 use super::statistics::Statistics;
 use super::tip::{valid_tips, whiskers};
 use crate::run::Trace;
-use vibrissa_world::geometry::{Point2, min_distance, min_distance_down_to};
+use vibrissa_world::geometry::{Point2, TreePoint, min_distance, min_distance_down_to, plane_point, tree_point};
 
 /// The largest number of ticks between consecutive tips of a stroke.
 ///
@@ -34,13 +34,13 @@ pub struct Estimate {
     /// All lines of the strokes, in their order.
     lines: Vec<StrokeLine>,
     /// The lines with their indices.
-    tree: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
+    tree: RTree<GeomWithData<Line<TreePoint>, usize>>,
 }
 
 /// A line of a stroke.
 #[derive(Debug, Clone, Copy)]
 struct StrokeLine {
-    line: Line<[f64; 2]>,
+    line: Line<TreePoint>,
     stroke: usize,
     /// The length of the stroke (m) before it.
     start: f64,
@@ -48,13 +48,13 @@ struct StrokeLine {
 
 impl StrokeLine {
     fn foot(&self, point: Point2) -> Foot {
-        let place = Point2::from(self.line.nearest_point(&point.into()));
-        let arc_length = self.start + (place - Point2::from(self.line.from)).norm();
+        let place = plane_point(self.line.nearest_point(&tree_point(point)));
+        let arc_length = self.start + (place - plane_point(self.line.from)).norm();
         Foot { distance: (point - place).norm(), place, curve: self.stroke, arc_length, loop_length: None }
     }
 
     fn end(&self) -> f64 {
-        self.start + (Point2::from(self.line.to) - Point2::from(self.line.from)).norm()
+        self.start + (plane_point(self.line.to) - plane_point(self.line.from)).norm()
     }
 }
 
@@ -68,7 +68,7 @@ impl Estimate {
             for (from, to) in lines(points) {
                 let before = all.last().filter(|before| before.stroke == stroke);
                 let start = before.map_or(0.0, StrokeLine::end);
-                all.push(StrokeLine { line: Line::new(from.into(), to.into()), stroke, start });
+                all.push(StrokeLine { line: Line::new(tree_point(from), tree_point(to)), stroke, start });
             }
         }
         let leaves = all.iter().enumerate().map(|(index, of)| GeomWithData::new(of.line, index));
@@ -152,8 +152,8 @@ pub(super) fn is_joined((last_tick, last_tip): (usize, Point2), (tick, tip): (us
 }
 
 /// The distance (m) of a point from a line segment, which may have the length 0.
-pub(super) fn distance_from(line: &Line<[f64; 2]>, point: Point2) -> f64 {
-    (point - Point2::from(line.nearest_point(&point.into()))).norm()
+pub(super) fn distance_from(line: &Line<TreePoint>, point: Point2) -> f64 {
+    (point - plane_point(line.nearest_point(&tree_point(point)))).norm()
 }
 
 /// The line segments of a stroke. A single tip is a segment of length 0.

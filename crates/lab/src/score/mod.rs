@@ -15,6 +15,7 @@ mod excursion;
 mod figure;
 mod hausdorff;
 mod inclination;
+mod isolated;
 mod latency;
 mod lipschitz;
 mod map_figures;

@@ -2,7 +2,7 @@
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
-use vibrissa_world::geometry::{BoundingBox, Contour, Point2, Segment, Vector2};
+use vibrissa_world::geometry::{BoundingBox, Contour, Point2, Segment, TreePoint, Vector2, tree_point};
 use vibrissa_world::scene::{Truth, gap};
 
 /// The distance (m) up to which two lines intersect, because of rounding.
@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-9;
 /// The outlines of all solids, found by their bounding boxes.
 pub(super) struct Outlines<'s> {
     contours: Vec<&'s Contour>,
-    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    boxes: RTree<GeomWithData<Rectangle<TreePoint>, usize>>,
 }
 
 impl<'s> Outlines<'s> {
@@ -19,7 +19,7 @@ impl<'s> Outlines<'s> {
         let contours: Vec<_> = truth.surfaces.contours().collect();
         let of_contour = |(index, contour): (usize, &&Contour)| {
             let BoundingBox { min, max } = contour.bounding_box();
-            GeomWithData::new(Rectangle::from_corners(min.into(), max.into()), index)
+            GeomWithData::new(Rectangle::from_corners(tree_point(min), tree_point(max)), index)
         };
         Self { boxes: RTree::bulk_load(contours.iter().enumerate().map(of_contour).collect()), contours }
     }
@@ -30,8 +30,16 @@ impl<'s> Outlines<'s> {
         let min = points.iter().fold(corner(f64::INFINITY), |min, point| min.inf(point));
         let max = points.iter().fold(corner(f64::NEG_INFINITY), |max, point| max.sup(point));
         let margin = Vector2::new(2.0 * ROUNDING, 2.0 * ROUNDING);
-        let around = AABB::from_corners((min - margin).into(), (max + margin).into());
+        let around = AABB::from_corners(tree_point(min - margin), tree_point(max + margin));
         self.boxes.locate_in_envelope_intersecting(around).filter_map(|of| self.contours.get(of.data).copied())
+    }
+
+    /// True if a contour is one of the outlines, and the box around it with a `margin` (m) meets the box of no other outline.
+    pub(super) fn is_alone(&self, contour: &Contour, margin: f64) -> bool {
+        let (BoundingBox { min, max }, margin) = (contour.bounding_box(), Vector2::new(margin, margin));
+        let corners = [min - margin, max + margin];
+        let mut near = self.near(&corners);
+        near.next().is_some_and(|own| own.pieces() == contour.pieces()) && near.next().is_none()
     }
 
     pub(super) fn is_outside(&self, point: Point2) -> bool {

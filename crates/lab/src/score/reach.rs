@@ -9,6 +9,7 @@ use std::ops::Range;
 use super::Estimate;
 use super::coverage::traced_outlines;
 use super::enclosure::Enclosure;
+use super::isolated::{is_convex, lies_beyond_wall};
 use super::outlines::{Outlines, inner_radius, middle_of};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_world::geometry::{Contour, Point2, Pose, Vector2, perpendicular, rotate};
@@ -20,7 +21,7 @@ const CELL_SIZE: f64 = 2.5e-3;
 const HEADINGS: u32 = 240;
 /// Lengths of a straight whisker, as shares of the longest one, that are tested before any search.
 const STRAIGHT_REACHES: [f64; 3] = [0.8, 0.4, 0.15];
-const STRAIGHT_HEADINGS: u32 = 24;
+pub(super) const STRAIGHT_HEADINGS: u32 = 24;
 /// Distance (m) between the sampled points of an outline.
 const SPACING: f64 = 4e-3;
 /// The largest ratio of a path along sides and diagonals of cells to the straight distance.
@@ -52,6 +53,9 @@ pub fn out_of_reach(estimate: &Estimate, truth: &Truth, rig: &Rig, start: Option
 pub(super) fn out_of_reach_of(traced: &[Vec<Range<f64>>], truth: &Truth, rig: &Rig, start: Option<Pose>) -> f64 {
     let mut search = Search::new(rig, truth, start);
     let of_contour = |(contour, traced): (&Contour, &Vec<Range<f64>>)| -> f64 {
+        if search.can_touch_all_around(contour) {
+            return 0.0;
+        }
         untraced(traced, contour.length()).map(|stretch| search.out_of_reach(contour, &stretch)).sum()
     };
     // An empty `sum` is negative zero.
@@ -117,6 +121,17 @@ impl<'s> Search<'s> {
             has_base: HashMap::new(),
             is_open: HashMap::new(),
         }
+    }
+
+    /// True if a straight whisker touches every point of a contour from a pose in front of it: the outline of a convex object that
+    /// is far from all others. Beyond its tangent the platform fits.
+    fn can_touch_all_around(&self, contour: &Contour) -> bool {
+        let distance = STRAIGHT_REACHES[0] * self.length;
+        let arm = self.mounts.as_flattened().iter().map(Vector2::norm).fold(0.0, f64::max);
+        self.outlines.is_alone(contour, distance + arm + 2.0 * OUTSIDE_OFFSET)
+            && is_convex(contour)
+            && lies_beyond_wall(&self.mounts, distance)
+            && self.enclosure().is_none()
     }
 
     /// The length (m) of an interval of a contour that no tip can touch.

@@ -16,6 +16,7 @@ use super::setup::RunSetup;
 use super::shape::outline_points;
 use crate::inspect::{Breakpoint, Breakpoints};
 use vibrissa_language::explain::{Explained, Judged};
+use vibrissa_text::diagnostic::{Diagnostic, Source};
 use vibrissa_world::geometry::Contour;
 use vibrissa_world::scene::Scene;
 
@@ -70,6 +71,18 @@ pub fn hello(
 pub fn breakpoints(policy: &Breakpoints) -> Vec<BreakpointInfo> {
     let info = |breakpoint: &Breakpoint| BreakpointInfo { text: breakpoint.text.clone(), state: breakpoint.state() };
     policy.breakpoints.iter().map(info).collect()
+}
+
+/// A policy with the breakpoints of these texts, as far as it can have them. It must have the `new` one.
+///
+/// # Errors
+/// What is wrong with the new one, for people.
+pub fn breakpoints_with(source: &Source, texts: &[String], new: Option<&String>) -> Result<Breakpoints, String> {
+    let fault = |faults: Vec<Diagnostic>| faults.first().map_or_else(String::new, |fault| fault.message.clone());
+    if let Some(new) = new {
+        Breakpoints::new(source, std::slice::from_ref(new)).map_err(|(_, faults)| fault(faults))?;
+    }
+    Breakpoints::possible(source, texts).map(|(policy, _)| policy).map_err(fault)
 }
 
 fn guards(policy: &Explained, numbers: &GuardNumbers) -> Vec<GuardInfo> {

@@ -20,7 +20,7 @@ pub use definition::Sweep;
 pub use header::Header;
 pub use line::{ReadLine, SweepLine, read_calibration, read_line};
 pub use merge::{Missing, merge};
-pub use plan::{Plan, PlanError};
+pub use plan::Plan;
 pub use results::{Results, ResultsError};
 pub use run::SweepRun;
 pub use run_row::{RunRow, run_rows};

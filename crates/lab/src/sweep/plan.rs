@@ -8,52 +8,14 @@ use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{ParameterValue, Program};
 use vibrissa_runtime::units::Dimension;
 
-use super::{Header, ScenesOf, Shard, Sweep, SweepRun};
-use crate::calibration::ArrayCalibrationError;
-use crate::family::{NoDraw, Values};
+use super::{Header, ScenesOf, Shard, Sweep, SweepRun, SweepScenes};
+use crate::family::{Family, NoDraw, Values};
 use crate::load::{self, GivenMismatch, LoadError, Loaded, Policy, Sought, beside, outline_file, with_settings};
-use crate::trial::{ExecuteError, Inputs, Trial, check_world, engine_version, short_hash};
+use crate::trial::{Trial, TrialFault, check_world, engine_version, short_hash};
 use vibrissa_declare::catalogue::common::SPEED;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_text::file::CommandFiles;
-use vibrissa_world::mismatch::MismatchError;
-use vibrissa_world::scenario::unreadable;
 use vibrissa_world::scene::{FileReference, WorldSetup};
-
-/// The error of a sweep that cannot run.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    /// A file cannot be used.
-    #[error(transparent)]
-    Load(#[from] LoadError),
-    /// A family has no scene.
-    #[error(transparent)]
-    Draw(#[from] NoDraw),
-    /// The mismatch does not fit to the rig of a scenario.
-    #[error("{}: --mismatch: {cause}", scenario.display())]
-    Mismatch {
-        /// The scenario of the run.
-        scenario: PathBuf,
-        /// The cause.
-        cause: MismatchError,
-    },
-    /// The array of a run cannot be calibrated.
-    #[error("{}: the array cannot be calibrated: {cause}", scenario.display())]
-    Calibration {
-        /// The scenario of the run.
-        scenario: PathBuf,
-        /// The cause.
-        cause: ArrayCalibrationError,
-    },
-    /// A run cannot begin.
-    #[error("{}: {cause}", scenario.display())]
-    Execute {
-        /// The scenario of the run.
-        scenario: PathBuf,
-        /// The cause.
-        cause: ExecuteError,
-    },
-}
 
 /// A sweep that is ready to run.
 pub struct Plan {
@@ -62,8 +24,8 @@ pub struct Plan {
     /// The sweep.
     pub sweep: Sweep,
     policies: Vec<Loaded<Program>>,
-    /// The texts of its scenarios, in the order of the sweep's scenes.
-    scenarios: Vec<Option<Source>>,
+    /// Where its scenes come from, in their order.
+    scenes: Vec<SceneSource>,
     /// The content of the files that scenarios name, by path, or the reason why a file cannot be read.
     files: BTreeMap<PathBuf, Result<Vec<u8>, String>>,
     inputs: BTreeMap<String, String>,
@@ -71,21 +33,29 @@ pub struct Plan {
     mismatch: GivenMismatch,
 }
 
+/// Where scenes come from.
+enum SceneSource {
+    /// A family that the program has, or that a file describes. Names in its scenes are relative to the path.
+    Family { family: Family, path: PathBuf },
+    /// The text of a scenario.
+    Scenario(Source),
+}
+
 impl Plan {
     /// Reads a sweep and the files that it names. Its runs are pruned if `prune`, and have the `mismatch`.
     ///
     /// # Errors
-    /// [`PlanError`] if a file cannot be used.
+    /// [`TrialFault`] if a file cannot be used.
     pub fn read(
         path: &Path,
         prune: bool,
         mismatch: GivenMismatch,
         files: &mut CommandFiles,
-    ) -> Result<Self, PlanError> {
+    ) -> Result<Self, TrialFault> {
         let source = load::read(path, files)?;
         let sweep = match Sweep::from_yaml(&source) {
             Ok(sweep) => sweep,
-            Err(faults) => return Err(PlanError::Load(LoadError::Faults { source_text: Box::new(source), faults })),
+            Err(faults) => return Err(TrialFault::Load(LoadError::Faults { source_text: Box::new(source), faults })),
         };
         let mut inputs = BTreeMap::from([("the program".to_owned(), engine_version())]);
         if !prune {
@@ -102,20 +72,25 @@ impl Plan {
             hashed("policy", &file.path, policy.hash.clone());
             policies.push(policy);
         }
-        let mut scenarios = Vec::new();
-        for scenes in sweep.scenes() {
-            let ScenesOf::Scenario(file) = &scenes.of else {
-                scenarios.push(None);
-                continue;
+        let mut scenes = Vec::new();
+        for SweepScenes { of, .. } in sweep.scenes() {
+            let file = match of {
+                ScenesOf::Scenario(file) => file,
+                ScenesOf::Family(family) => {
+                    scenes.push(SceneSource::Family { family: family.clone(), path: path.to_owned() });
+                    continue;
+                }
             };
             let text = load::scenario_text(&Sought::Scenario.beside(path, &file.path), files)
                 .map_err(LoadError::named_in(&source, file))?;
             hashed("scenario", &file.path, Sha256::new_with_prefix(&text.text));
-            scenarios.push(Some(text));
+            scenes.push(match load::drawn_scenes(&text)? {
+                Some(family) => SceneSource::Family { family, path: PathBuf::from(&text.name) },
+                None => SceneSource::Scenario(text),
+            });
         }
         let path = path.to_owned();
-        let mut plan =
-            Self { path, source, sweep, policies, scenarios, files: BTreeMap::new(), inputs, prune, mismatch };
+        let mut plan = Self { path, source, sweep, policies, scenes, files: BTreeMap::new(), inputs, prune, mismatch };
         plan.read_files(files);
         Ok(plan)
     }
@@ -152,8 +127,8 @@ impl Plan {
     /// Reads the policies once more with the analysis that finds warnings. It takes most of the time of a compilation.
     ///
     /// # Errors
-    /// [`PlanError`] if a policy cannot be used.
-    pub fn analysed_policies(&self, files: &mut CommandFiles) -> Result<Vec<Policy>, PlanError> {
+    /// [`TrialFault`] if a policy cannot be used.
+    pub fn analysed_policies(&self, files: &mut CommandFiles) -> Result<Vec<Policy>, TrialFault> {
         let policies = self.sweep.policies();
         let read =
             |file: &FileReference| Ok(load::policy(&Sought::Policy.beside(&self.path, &file.path), files)?.value);
@@ -165,15 +140,15 @@ impl Plan {
     /// `note` receives remarks about the sweep.
     ///
     /// # Errors
-    /// [`PlanError`] if a run cannot begin.
-    pub fn check(&self, mut note: impl FnMut(String)) -> Result<(), PlanError> {
+    /// [`TrialFault`] if a run cannot begin.
+    pub fn check(&self, mut note: impl FnMut(String)) -> Result<(), TrialFault> {
         let mut noted = BTreeSet::new();
         let mut scenes = Vec::new();
         for run in self.sweep.samples() {
             let trial = self.uncalibrated_trial(&run)?;
             check_world(trial.world.kind)
-                .map_err(|cause| PlanError::Execute { scenario: trial.inputs.scenario.clone(), cause })?;
-            let is_same = matches!(run.scenes().of, ScenesOf::Scenario(_)) && !trial.scene.is_random();
+                .map_err(|cause| TrialFault::Execute { scenario: trial.inputs.scenario.clone(), cause })?;
+            let is_same = matches!(self.scenes[run.scenes], SceneSource::Scenario(_)) && !trial.scene.is_random();
             if is_same && run.scenes().trials > 1 && noted.insert(run.scenes) {
                 let name = run.scenes().name();
                 note(format!("{name}: without noise all trials are the same run"));
@@ -189,16 +164,16 @@ impl Plan {
     /// The trial of a run. Its array is calibrated.
     ///
     /// # Errors
-    /// [`PlanError`] if it cannot be made.
-    pub fn trial(&self, run: &SweepRun<'_>) -> Result<Trial, PlanError> {
+    /// [`TrialFault`] if it cannot be made.
+    pub fn trial(&self, run: &SweepRun<'_>) -> Result<Trial, TrialFault> {
         let mut trial = self.uncalibrated_trial(run)?;
         match self.mismatch.calibrate(&mut trial) {
             Ok(()) => Ok(trial),
-            Err(cause) => Err(PlanError::Calibration { scenario: trial.inputs.scenario, cause }),
+            Err(cause) => Err(TrialFault::Calibration { scenario: trial.inputs.scenario, cause }),
         }
     }
 
-    fn uncalibrated_trial(&self, run: &SweepRun<'_>) -> Result<Trial, PlanError> {
+    fn uncalibrated_trial(&self, run: &SweepRun<'_>) -> Result<Trial, TrialFault> {
         let policy = &self.policies[run.policy];
         let mut program = policy.value.clone();
         let mut settings = Vec::new();
@@ -220,34 +195,28 @@ impl Plan {
             scenario_hash.update(&bytes);
             Ok(bytes)
         });
-        let mut scene =
-            scene.map_err(|(source_text, faults)| PlanError::Load(LoadError::Faults { source_text, faults }))?;
+        let scene =
+            scene.map_err(|(source_text, faults)| TrialFault::Load(LoadError::Faults { source_text, faults }))?;
         let changes = run.settings().map(|(name, value)| format!("\0{name}={value}"));
-        let mut scenario_hash = changes.fold(scenario_hash, Sha256::chain_update);
-        self.mismatch
-            .apply(&mut scene, &mut scenario_hash, run.trial)
-            .map_err(|cause| PlanError::Mismatch { scenario: PathBuf::from(&text.name), cause })?;
+        let hash = changes.fold(scenario_hash, Sha256::chain_update);
         let policy_hash = with_settings(policy.hash.clone(), settings.into_iter());
-        let seed = match &run.scenes().of {
-            ScenesOf::Family(_) => scene.seed,
-            ScenesOf::Scenario(_) => run.scenes().seed.unwrap_or(scene.seed).wrapping_add(run.trial),
-        };
-        let inputs = Inputs {
-            scenario: PathBuf::from(&text.name),
-            scenario_hash: short_hash(&scenario_hash.finalize()),
-            policy_hash: short_hash(&policy_hash.finalize()),
-            ..Inputs::default()
+        let seed = match &self.scenes[run.scenes] {
+            SceneSource::Family { .. } => scene.seed,
+            SceneSource::Scenario(_) => run.scenes().seed.unwrap_or(scene.seed).wrapping_add(run.trial),
         };
         let world = WorldSetup { kind: scene.world.unwrap_or_default(), prune: self.prune };
-        Ok(Trial { world, seed, inputs, ..Trial::new(scene, Arc::new(program)) })
+        let (path, scene) = (Path::new(&text.name), Loaded { value: scene, hash });
+        let trial = self.mismatch.trial((path, scene), (&Arc::new(program), policy_hash), world, run.trial)?;
+        Ok(Trial { seed, ..trial })
     }
 
     /// The path and text of a run's scenario, and the random speed (m/s) of a scene of a family. Names in the text are
     /// relative to the path.
-    fn scenario(&self, run: &SweepRun<'_>) -> Result<(PathBuf, Source, Option<f64>), PlanError> {
+    fn scenario(&self, run: &SweepRun<'_>) -> Result<(PathBuf, Source, Option<f64>), TrialFault> {
         let scenes = run.scenes();
-        match (&scenes.of, &self.scenarios[run.scenes]) {
-            (ScenesOf::Family(family), _) => {
+        match &self.scenes[run.scenes] {
+            SceneSource::Scenario(text) => Ok((PathBuf::from(&text.name), text.clone(), None)),
+            SceneSource::Family { family, path } => {
                 let speed = run.parameters().find(|(name, ..)| *name == SPEED.name);
                 // Any other value than a quantity is refused when it is set.
                 let speed = speed.and_then(|(_, speed, span)| match speed {
@@ -259,16 +228,12 @@ impl Plan {
                 let draw = family.draw_with(scenes.family_seed(), run.trial, &values);
                 let draw = draw.map_err(|fault| match (fault, given.first()) {
                     (NoDraw::Given { reason, .. }, Some(&(.., span))) => {
-                        PlanError::Load(LoadError::at(&self.source, run.no_scene(span, &reason)))
+                        TrialFault::Load(LoadError::at(&self.source, run.no_scene(span, &reason)))
                     }
-                    (fault, _) => PlanError::Draw(fault),
+                    (fault, _) => TrialFault::Draw(fault),
                 })?;
                 let drawn_speed = speed.is_none().then_some(draw.speed);
-                Ok((self.path.clone(), Source::new(draw.scene.name, draw.text), drawn_speed))
-            }
-            (ScenesOf::Scenario(_), Some(text)) => Ok((PathBuf::from(&text.name), text.clone(), None)),
-            (ScenesOf::Scenario(file), None) => {
-                Err(LoadError::at(&self.source, unreadable(file, "it has not been read")).into())
+                Ok((path.clone(), Source::new(draw.scene.name, draw.text), drawn_speed))
             }
         }
     }

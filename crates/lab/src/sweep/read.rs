@@ -4,8 +4,9 @@ use super::axis::{Axis, AxisValue, AxisValues};
 use super::definition::Sweep;
 use super::family_axis;
 use super::scenes::{ScenesOf, SweepScenes};
-use crate::family::{FAMILIES, Family};
+use crate::family::Family;
 use std::collections::BTreeMap;
+use vibrissa_declare::catalogue::ENTRIES;
 use vibrissa_runtime::machine::ParameterValue;
 use vibrissa_text::diagnostic::{Diagnostic, Source, Span};
 use vibrissa_world::scenario::{self, Change, name, reference};
@@ -136,8 +137,8 @@ fn read_scenes(reader: &mut Reader<'_>, item: &Placed<Node>) -> Option<SweepScen
 }
 
 fn family(reader: &mut Reader<'_>, entry: &Entry) -> Option<Family> {
-    let index = reader.choice(&entry.value, "a family", &FAMILIES.map(|family| family.name))?;
-    FAMILIES.get(index).copied()
+    let index = reader.choice(&entry.value, "a family", &ENTRIES.map(|family| family.name))?;
+    ENTRIES.get(index).and_then(|entry| Family::named(entry.name))
 }
 
 /// Reads the axes. Without `scenes`, which have errors, those of families are not read.

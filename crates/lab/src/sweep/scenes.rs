@@ -28,7 +28,7 @@ impl SweepScenes {
     #[must_use]
     pub fn name(&self) -> &str {
         match &self.of {
-            ScenesOf::Family(family) => family.name,
+            ScenesOf::Family(family) => &family.name,
             ScenesOf::Scenario(file) => &file.name,
         }
     }

@@ -2,6 +2,7 @@
 //!
 //! Many trials run on several [threads](in_parallel), or in [worker processes](Worker) that may crash.
 
+mod fault;
 mod policy_test;
 mod processor_time;
 mod recording;
@@ -12,6 +13,7 @@ mod trial;
 mod worker;
 mod worlds;
 
+pub use fault::TrialFault;
 pub use policy_test::violations;
 pub(crate) use processor_time::processor_time;
 pub use recording::Recording;

@@ -16,7 +16,9 @@ use vibrissa_world::world::{Decision, World};
 #[derive(Debug, thiserror::Error)]
 pub enum SimulatorError {
     /// The program was built without the simulator.
-    #[error("this build has no world `{0}`; build the program with the feature `sim`, or use the world `quasistatic`")]
+    #[error(
+        "this build has no simulator `{0}`; build the program with the feature `sim`, or use the simulator `quasistatic`"
+    )]
     Missing(WorldKind),
     /// The simulator refuses the scene, or its library cannot be loaded.
     #[error(transparent)]

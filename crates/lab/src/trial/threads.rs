@@ -1,7 +1,7 @@
 //! Parallel work on several threads.
 
+use std::convert::Infallible;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread::{Builder, available_parallelism, scope};
@@ -37,32 +37,30 @@ pub fn in_parallel<T: Sync, R: Send>(
     mut done: impl FnMut(&R),
 ) -> Vec<R> {
     let mut results = Vec::with_capacity(tasks.len());
-    stream_in_parallel(
-        tasks,
-        threads,
-        || (),
-        |(), task| work(task),
-        |index, result| {
-            done(&result);
-            results.push((index, result));
-            ControlFlow::Continue(())
-        },
-    );
+    let keep = |index, result| {
+        done(&result);
+        results.push((index, result));
+        Ok::<(), Infallible>(())
+    };
+    let Ok(()) = stream_in_parallel(tasks, threads, || (), |(), task| work(task), keep);
     results.sort_by_key(|&(index, _)| index);
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Executes tasks without keeping the results. `done` receives each result with the index of its task, and may stop the
+/// Executes tasks without keeping the results. `done` receives each result with the index of its task. Its first error stops the
 /// work. Then only the tasks that have begun are finished. Tasks begin in their order. Each thread has its own `tool`.
 ///
 /// If the system starts fewer threads, they execute all tasks. If it starts none, the calling thread does.
-pub fn stream_in_parallel<T: Sync, S, R: Send>(
+///
+/// # Errors
+/// The error of `done`.
+pub fn stream_in_parallel<T: Sync, S, R: Send, E>(
     tasks: &[T],
     threads: impl Into<Threads>,
     tool: impl Fn() -> S + Sync,
     work: impl Fn(&mut S, &T) -> R + Sync,
-    mut done: impl FnMut(usize, R) -> ControlFlow<()>,
-) {
+    mut done: impl FnMut(usize, R) -> Result<(), E>,
+) -> Result<(), E> {
     let next = AtomicUsize::new(0);
     // Each thread waits with its result until the receiver is ready, so that results do not accumulate.
     let threads = threads.into();
@@ -91,18 +89,11 @@ pub fn stream_in_parallel<T: Sync, S, R: Send>(
         }
         if started == 0 {
             let mut tool = tool();
-            for (index, task) in tasks.iter().enumerate() {
-                if done(index, work(&mut tool, task)).is_break() {
-                    break;
-                }
-            }
+            let mut tasks = tasks.iter().enumerate();
+            return tasks.try_for_each(|(index, task)| done(index, work(&mut tool, task)));
         }
-        for (index, result) in receiver {
-            if done(index, result).is_break() {
-                break;
-            }
-        }
-    });
+        receiver.into_iter().try_for_each(|(index, result)| done(index, result))
+    })
 }
 
 #[cfg(test)]
@@ -136,16 +127,11 @@ mod tests {
             (*done, *task)
         };
         let mut heard = Vec::new();
-        stream_in_parallel(
-            &tasks,
-            threads(1),
-            || 0,
-            work,
-            |index, (done, task)| {
-                heard.push((index, done, task));
-                if heard.len() < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            },
-        );
+        let hear = |index, (done, task)| {
+            heard.push((index, done, task));
+            if heard.len() < 5 { Ok(()) } else { Err("enough") }
+        };
+        assert_eq!(stream_in_parallel(&tasks, threads(1), || 0, work, hear), Err("enough"));
         assert_eq!(heard, [(0, 1, 0), (1, 2, 1), (2, 3, 2), (3, 4, 3), (4, 5, 4)]);
         assert!(begun.into_inner() < 10);
     }

@@ -126,7 +126,7 @@ impl Trial {
     ///
     /// # Errors
     /// [`ExecuteError`] if the run cannot begin, or if `watcher` stopped it.
-    pub fn run_watched(&self, watcher: &mut impl Watcher) -> Result<TrialResult, ExecuteError> {
+    pub fn run_watched(&self, watcher: &mut dyn Watcher) -> Result<TrialResult, ExecuteError> {
         let before = Stopwatch::start();
         let world = std::thread::scope(|scope| {
             let prepare = || Perception::prepare(&self.assumed_rig, &self.program.contact_estimators);
@@ -201,7 +201,7 @@ impl Trial {
         self.scene.rig.sensing.control_rate.recip()
     }
 
-    fn drive(&self, control: Control, world: &mut dyn World, watcher: &mut impl Watcher) -> Result<Run, ExecuteError> {
+    fn drive(&self, control: Control, world: &mut dyn World, watcher: &mut dyn Watcher) -> Result<Run, ExecuteError> {
         drive(world, control, self.scene.goal(), self.period(), watcher).ok_or(ExecuteError::Interrupted)
     }
 

@@ -85,7 +85,7 @@ pub fn engine_version() -> String {
 /// The version of the simulator with this name. A simulator without a library has that of this program.
 #[must_use]
 pub fn simulator_version(name: &str) -> &'static str {
-    let known = WorldKind::ALL.into_iter().find(|kind| kind.name() == name);
+    let known = WorldKind::named(name);
     known.map_or(env!("CARGO_PKG_VERSION"), |kind| (Simulator::of(kind).version)().unwrap_or(env!("CARGO_PKG_VERSION")))
 }
 

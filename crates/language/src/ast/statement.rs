@@ -158,38 +158,22 @@ pub(crate) enum Kind {
     },
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Binary {
-    Or,
-    And,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-    Equal,
-    Unequal,
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-}
-
-impl Binary {
+vibrissa_runtime::kinds! {
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum Binary,
     /// The text of the operator.
-    pub(crate) fn symbol(self) -> &'static str {
-        match self {
-            Self::Or => "or",
-            Self::And => "and",
-            Self::Less => "<",
-            Self::LessOrEqual => "<=",
-            Self::Greater => ">",
-            Self::GreaterOrEqual => ">=",
-            Self::Equal => "==",
-            Self::Unequal => "!=",
-            Self::Add => "+",
-            Self::Subtract => "-",
-            Self::Multiply => "*",
-            Self::Divide => "/",
-        }
+    fn symbol {
+        Or = "or",
+        And = "and",
+        Less = "<",
+        LessOrEqual = "<=",
+        Greater = ">",
+        GreaterOrEqual = ">=",
+        Equal = "==",
+        Unequal = "!=",
+        Add = "+",
+        Subtract = "-",
+        Multiply = "*",
+        Divide = "/",
     }
 }

@@ -84,290 +84,150 @@ const fn member(name: &'static str, r#type: Type, source: MemberSource, meaning:
     Member { name, r#type, source, at: None, meaning }
 }
 
-const fn scalar(name: &'static str, r#type: Type, quantity: WhiskerScalar, meaning: &'static str) -> Member {
-    member(name, r#type, MemberSource::Scalar(quantity), meaning)
+impl Member {
+    const fn returning(self, at: At) -> Self {
+        Self { at: Some(at), ..self }
+    }
 }
 
-const fn position(name: &'static str, quantity: WhiskerVector, meaning: &'static str) -> Member {
-    member(name, Type::Position, MemberSource::Vector(quantity), meaning)
+/// Declares the members of owners: the name, the type and the source, then the meaning, and what the member returns for arguments.
+macro_rules! members {
+    ($($(#[$doc:meta])* $owner:ident { $($name:literal $type:expr => $source:ident $(($of:expr))?, $meaning:literal $(, $at:expr)?;)* })*) => {
+        $($(#[$doc])* const $owner: [Member; [$($name),*].len()] =
+            [$(member($name, $type, MemberSource::$source $(($of))?, $meaning) $(.returning($at))?,)*];)*
+    };
 }
 
-/// A vector of plain numbers has components of this type.
-const VECTOR: [Member; 2] = [
-    member("x", Type::NUMBER, MemberSource::Component(0), "the first component of a vector"),
-    member("y", Type::NUMBER, MemberSource::Component(1), "the second component of a vector"),
-];
+members! {
+    /// A vector of plain numbers has components of this type.
+    VECTOR {
+        "x" Type::NUMBER => Component(0), "the first component of a vector";
+        "y" Type::NUMBER => Component(1), "the second component of a vector";
+    }
 
-const WHISKER: [Member; 15] = [
-    scalar(
-        "base_angle",
-        Type::ANGLE,
-        WhiskerScalar::BaseAngle,
-        "the filtered angle of its base, counter-clockwise positive",
-    ),
-    scalar(
-        "base_angle_deviation",
-        Type::ANGLE,
-        WhiskerScalar::BaseAngleDeviation,
-        "standard deviation of `base_angle`, from the noise that the rig states or that was measured in free air, and from vibrations of the shaft",
-    ),
-    scalar(
-        "touching",
-        Type::Bool,
-        WhiskerScalar::Touching,
-        "true if the magnitude of the base angle exceeds the rig's contact threshold and five standard deviations",
-    ),
-    scalar("yaw", Type::ANGLE, WhiskerScalar::Yaw, "the direction of the undeflected shaft"),
-    scalar(
-        "side",
-        Type::NUMBER,
-        WhiskerScalar::Side,
-        "the side of the platform: \u{2212}1 on the right, 1 on the left",
-    ),
-    scalar(
-        "sense",
-        Type::NUMBER,
-        WhiskerScalar::Sense,
-        "the sign of the base angle: 1 for the sign that forward motion causes, \u{2212}1 for the other, 0 without contact",
-    ),
-    scalar("length", Type::LENGTH, WhiskerScalar::Length, "the length of the shaft"),
-    position("tip", WhiskerVector::Tip, "the position of the tip, as estimated by the contact estimator"),
-    member(
-        "tip_base",
-        Type::DISPLACEMENT,
-        MemberSource::Vector(WhiskerVector::TipBase),
-        "the displacement of the tip from the base: x along the undeflected shaft, y to its left",
-    ),
-    scalar(
-        "tip_deviation",
-        Type::LENGTH,
-        WhiskerScalar::TipDeviation,
-        "standard deviation of `tip` as the contact estimator reports it. It is infinite beyond its range",
-    ),
-    position("base", WhiskerVector::Base, "the position of the base"),
-    scalar(
-        "fitted",
-        Type::Bool,
-        WhiskerScalar::Fitted,
-        "true if the rig has the whisker. Only whiskers that are bound `if fitted` may be missing",
-    ),
-    Member {
-        at: Some(At::Tip),
-        ..member(
-            "tip_at",
-            Type::DISPLACEMENT,
-            MemberSource::At,
-            "the displacement of the tip from the base at a given base angle, in the axes of `tip_base`",
-        )
-    },
-    Member {
-        at: Some(At::LoopClosed),
-        ..member(
-            "loop_closed",
-            Type::Bool,
-            MemberSource::At,
-            "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around. A whisker can close one loop in a run: behind a gap, the same loop goes on. `trace_object` in `std.object` traces several objects",
-        )
-    },
-    member(
-        "contour",
-        Type::Contour,
-        MemberSource::Contour,
-        "the local contour behind the tip, from the points of `record`",
-    ),
-];
+    WHISKER {
+        "base_angle" Type::ANGLE => Scalar(WhiskerScalar::BaseAngle),
+            "the filtered angle of its base, counter-clockwise positive";
+        "base_angle_deviation" Type::ANGLE => Scalar(WhiskerScalar::BaseAngleDeviation),
+            "standard deviation of `base_angle`, from the noise that the rig states or that was measured in free air, and from vibrations of the shaft";
+        "touching" Type::Bool => Scalar(WhiskerScalar::Touching),
+            "true if the magnitude of the base angle exceeds the rig's contact threshold and five standard deviations";
+        "yaw" Type::ANGLE => Scalar(WhiskerScalar::Yaw), "the direction of the undeflected shaft";
+        "side" Type::NUMBER => Scalar(WhiskerScalar::Side),
+            "the side of the platform: \u{2212}1 on the right, 1 on the left";
+        "sense" Type::NUMBER => Scalar(WhiskerScalar::Sense),
+            "the sign of the base angle: 1 for the sign that forward motion causes, \u{2212}1 for the other, 0 without contact";
+        "length" Type::LENGTH => Scalar(WhiskerScalar::Length), "the length of the shaft";
+        "tip" Type::Position => Vector(WhiskerVector::Tip),
+            "the position of the tip, as estimated by the contact estimator";
+        "tip_base" Type::DISPLACEMENT => Vector(WhiskerVector::TipBase),
+            "the displacement of the tip from the base: x along the undeflected shaft, y to its left";
+        "tip_deviation" Type::LENGTH => Scalar(WhiskerScalar::TipDeviation),
+            "standard deviation of `tip` as the contact estimator reports it. It is infinite beyond its range";
+        "base" Type::Position => Vector(WhiskerVector::Base), "the position of the base";
+        "fitted" Type::Bool => Scalar(WhiskerScalar::Fitted),
+            "true if the rig has the whisker. Only whiskers that are bound `if fitted` may be missing";
+        "tip_at" Type::DISPLACEMENT => At,
+            "the displacement of the tip from the base at a given base angle, in the axes of `tip_base`", At::Tip;
+        "loop_closed" Type::Bool => At,
+            "true if the whisker went around an object: in the tick before it recorded a tip within the given distance of its first ones, at least the given time later, and the body has moved around. A whisker can close one loop in a run: behind a gap, the same loop goes on. `trace_object` in `std.object` traces several objects", At::LoopClosed;
+        "contour" Type::Contour => Contour, "the local contour behind the tip, from the points of `record`";
+    }
 
-const CONTOUR: [Member; 6] = [
-    scalar(
-        "ready",
-        Type::Bool,
-        WhiskerScalar::ContourReady,
-        "true if a point was recorded in this tick or the one before, and there are enough points for a curve: seven, unless the policy states another number",
-    ),
-    Member {
-        at: Some(At::Contour(ContourVector::Tangent)),
-        ..member(
-            "tangent",
-            Type::Direction,
-            MemberSource::Vector(WhiskerVector::ContourTangent),
-            "the tangent of the curve in the direction of travel, at its newest end or at a distance behind it",
-        )
-    },
-    Member {
-        at: Some(At::Contour(ContourVector::Normal)),
-        ..member(
-            "normal",
-            Type::Direction,
-            MemberSource::Vector(WhiskerVector::ContourNormal),
-            "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded. A contour of positions has it on the left",
-        )
-    },
-    position("end", WhiskerVector::ContourEnd, "the newest point of the contour"),
-    Member {
-        at: Some(At::Contour(ContourVector::Point)),
-        ..member(
-            "point",
-            Type::Position,
-            MemberSource::At,
-            "the point of the curve at a distance behind its newest end",
-        )
-    },
-    scalar(
-        "curvature",
-        Type::Scalar(Dimension::new(-1, 1, 0, 0)),
-        WhiskerScalar::ContourCurvature,
-        "the curvature at the newest end, counter-clockwise positive",
-    ),
-];
+    CONTOUR {
+        "ready" Type::Bool => Scalar(WhiskerScalar::ContourReady),
+            "true if a point was recorded in this tick or the one before, and there are enough points for a curve: seven, unless the policy states another number";
+        "tangent" Type::Direction => Vector(WhiskerVector::ContourTangent),
+            "the tangent of the curve in the direction of travel, at its newest end or at a distance behind it", At::Contour(ContourVector::Tangent);
+        "normal" Type::Direction => Vector(WhiskerVector::ContourNormal),
+            "the normal of the curve, away from the object: on the side of the whisker's base when the newest point was recorded. A contour of positions has it on the left", At::Contour(ContourVector::Normal);
+        "end" Type::Position => Vector(WhiskerVector::ContourEnd), "the newest point of the contour";
+        "point" Type::Position => At,
+            "the point of the curve at a distance behind its newest end", At::Contour(ContourVector::Point);
+        "curvature" Type::Scalar(Dimension::new(-1, 1, 0, 0)) => Scalar(WhiskerScalar::ContourCurvature),
+            "the curvature at the newest end, counter-clockwise positive";
+    }
 
-const BODY: [Member; 12] = [
-    member(
-        "yaw",
-        Type::ANGLE,
-        MemberSource::Body(BodyScalar::Yaw),
-        "the heading of the platform, without wrapping at full rotations",
-    ),
-    member("position", Type::Position, MemberSource::BodyPosition, "the centre of mass of the platform"),
-    member(
-        "blocked",
-        Type::Bool,
-        MemberSource::Body(BodyScalar::Blocked),
-        "true if the body is blocked: an obstacle prevents it from following its commands",
-    ),
-    member(
-        "shortfall",
-        Type::SPEED,
-        MemberSource::Body(BodyScalar::Shortfall),
-        "the difference between commanded and actual speed, averaged over 0.2 s, at the corner of the body where it is largest",
-    ),
-    member("nose", Type::Position, MemberSource::Nose, "the middle of the nose of the platform, from the rig"),
-    member("tail", Type::Position, MemberSource::Tail, "the middle of the tail of the platform, from the rig"),
-    member(
-        "length",
-        Type::LENGTH,
-        MemberSource::Body(BodyScalar::Length),
-        "the length of the platform from tail to nose, from the rig",
-    ),
-    member(
-        "width",
-        Type::LENGTH,
-        MemberSource::Body(BodyScalar::Width),
-        "the greatest width of the platform, from the rig",
-    ),
-    member(
-        "nose_width",
-        Type::LENGTH,
-        MemberSource::Body(BodyScalar::NoseWidth),
-        "the width of the platform at the nose, from the rig",
-    ),
-    member(
-        "tail_width",
-        Type::LENGTH,
-        MemberSource::Body(BodyScalar::TailWidth),
-        "the width of the platform at the tail, from the rig",
-    ),
-    member(
-        "flexibility",
-        Type::NUMBER,
-        MemberSource::Body(BodyScalar::Flexibility),
-        "the ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape, from the rig",
-    ),
-    member(
-        "decay",
-        Type::TIME,
-        MemberSource::Body(BodyScalar::Decay),
-        "the time in which a free vibration of the first bound whisker decreases to 37 %, from the rig",
-    ),
-];
+    BODY {
+        "yaw" Type::ANGLE => Body(BodyScalar::Yaw), "the heading of the platform, without wrapping at full rotations";
+        "position" Type::Position => BodyPosition, "the centre of mass of the platform";
+        "blocked" Type::Bool => Body(BodyScalar::Blocked),
+            "true if the body is blocked: an obstacle prevents it from following its commands";
+        "shortfall" Type::SPEED => Body(BodyScalar::Shortfall),
+            "the difference between commanded and actual speed, averaged over 0.2 s, at the corner of the body where it is largest";
+        "nose" Type::Position => Nose, "the middle of the nose of the platform, from the rig";
+        "tail" Type::Position => Tail, "the middle of the tail of the platform, from the rig";
+        "length" Type::LENGTH => Body(BodyScalar::Length), "the length of the platform from tail to nose, from the rig";
+        "width" Type::LENGTH => Body(BodyScalar::Width), "the greatest width of the platform, from the rig";
+        "nose_width" Type::LENGTH => Body(BodyScalar::NoseWidth), "the width of the platform at the nose, from the rig";
+        "tail_width" Type::LENGTH => Body(BodyScalar::TailWidth), "the width of the platform at the tail, from the rig";
+        "flexibility" Type::NUMBER => Body(BodyScalar::Flexibility),
+            "the ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape, from the rig";
+        "decay" Type::TIME => Body(BodyScalar::Decay),
+            "the time in which a free vibration of the first bound whisker decreases to 37 %, from the rig";
+    }
 
-const fn map_scalar(name: &'static str, r#type: Type, quantity: MapScalar, meaning: &'static str) -> Member {
-    member(name, r#type, MemberSource::Map(quantity), meaning)
+    MAP {
+        "next" Type::Target => MapPart, "what should be touched or looked at next";
+        "route" Type::Route => MapPart, "the route of the body to the goal of `tell map.go_to`";
+        "complete" Type::Bool => Map(MapScalar::IsComplete),
+            "true if nothing that the array can reach is left to be touched or looked at";
+        "unknown" Type::Scalar(Dimension::AREA) => Map(MapScalar::Unknown),
+            "the area of the unknown ground beside free ground, without ground beside known surfaces";
+        "free" Type::Bool => At, "true if the position is proved free", At::Map(MapQuestion::IsFree);
+        "clear" Type::Bool => At,
+            "true if all ground of the body at the position and heading is proved free", At::Map(MapQuestion::IsClear);
+        "traced" Type::Bool => At,
+            "true if a tip was recorded within 10 mm of the position", At::Map(MapQuestion::IsTraced);
+    }
+
+    TARGET {
+        "exists" Type::Bool => Map(MapScalar::HasNext),
+            "true if there is a next target. Its other members are unknown without one";
+        "on_surface" Type::Bool => Map(MapScalar::NextIsSurface),
+            "true if the target is the open end of a contour, a gap or a touched position, false if it is unknown ground";
+        "place" Type::Position => MapVector(MapVector::NextPlace), "the position that should be touched or looked at";
+        "normal" Type::Direction => MapVector(MapVector::NextNormal), "the direction from `place` to free ground";
+        "position" Type::Position => MapVector(MapVector::NextPosition), "the position of the body from which to begin";
+        "heading" Type::ANGLE => Map(MapScalar::NextHeading), "the heading of the body from which to begin";
+        "side" Type::NUMBER => Map(MapScalar::NextSide),
+            "the side of the whisker that should touch: \u{2212}1 on the right, 1 on the left";
+    }
+
+    ROUTE {
+        "direction" Type::Vector(Dimension::NUMBER) => MapVector(MapVector::RouteDirection),
+            "the direction of motion along the route, of length 1, or 0 at a standstill";
+        "speed" Type::SPEED => Map(MapScalar::RouteSpeed), "the speed along the route, 0 while there is none";
+        "yaw_rate" Type::ANGULAR_SPEED => Map(MapScalar::RouteYawRate),
+            "the yaw rate along the route, 0 while there is none";
+        "arrived" Type::Bool => Map(MapScalar::RouteIsDone),
+            "true if the body has followed the route and is at its goal";
+        "lost" Type::Bool => Map(MapScalar::RouteIsLost), "true if no route leads to the goal, or the body has left it";
+    }
+
+    /// The verdicts on a run.
+    VERDICTS {
+        "passed" Type::Bool => Run(RunFigure::Passed),
+            "true if the run fulfils the expectations of its scenario. A scenario without expectations expects completion";
+        "completed" Type::Bool => Run(RunFigure::Completed),
+            "true if the run completed: the policy succeeded, the loop closed, the goal was reached, or the time of a scenario without an aim ended";
+        "failed" Type::Bool => Run(RunFigure::Failed), "true if the run ended in `Failure`";
+        "timed_out" Type::Bool => Run(RunFigure::TimedOut),
+            "true if the run reached its time limit before the loop closed";
+        "diverged" Type::Bool => Run(RunFigure::Diverged), "true if the simulation diverged";
+    }
+
+    /// Figures of the states and the plots of a run.
+    PARTS {
+        "visits" Type::NUMBER => Visits,
+            "the number of entries of the given state: ticks that end in it or in an inner state, after a tick that did not";
+        "time_in" Type::TIME => TimeIn, "the total time in the given state or in an inner state";
+        "least" Type::NUMBER => Plot(PlotFigure::Least),
+            "the least value of the given plot, of its type. Unknown if it was never set";
+        "greatest" Type::NUMBER => Plot(PlotFigure::Greatest), "its greatest value";
+        "last" Type::NUMBER => Plot(PlotFigure::Last), "its last value";
+    }
 }
-
-const fn map_vector(name: &'static str, r#type: Type, quantity: MapVector, meaning: &'static str) -> Member {
-    member(name, r#type, MemberSource::MapVector(quantity), meaning)
-}
-
-const fn map_question(name: &'static str, question: MapQuestion, meaning: &'static str) -> Member {
-    Member { at: Some(At::Map(question)), ..member(name, Type::Bool, MemberSource::At, meaning) }
-}
-
-const MAP: [Member; 7] = [
-    member("next", Type::Target, MemberSource::MapPart, "what should be touched or looked at next"),
-    member("route", Type::Route, MemberSource::MapPart, "the route of the body to the goal of `tell map.go_to`"),
-    map_scalar(
-        "complete",
-        Type::Bool,
-        MapScalar::IsComplete,
-        "true if nothing that the array can reach is left to be touched or looked at",
-    ),
-    map_scalar(
-        "unknown",
-        Type::Scalar(Dimension::AREA),
-        MapScalar::Unknown,
-        "the area of the unknown ground beside free ground, without ground beside known surfaces",
-    ),
-    map_question("free", MapQuestion::IsFree, "true if the position is proved free"),
-    map_question(
-        "clear",
-        MapQuestion::IsClear,
-        "true if all ground of the body at the position and heading is proved free",
-    ),
-    map_question("traced", MapQuestion::IsTraced, "true if a tip was recorded within 10 mm of the position"),
-];
-
-const TARGET: [Member; 7] = [
-    map_scalar(
-        "exists",
-        Type::Bool,
-        MapScalar::HasNext,
-        "true if there is a next target. Its other members are unknown without one",
-    ),
-    map_scalar(
-        "on_surface",
-        Type::Bool,
-        MapScalar::NextIsSurface,
-        "true if the target is the open end of a contour, a gap or a touched position, false if it is unknown ground",
-    ),
-    map_vector("place", Type::Position, MapVector::NextPlace, "the position that should be touched or looked at"),
-    map_vector("normal", Type::Direction, MapVector::NextNormal, "the direction from `place` to free ground"),
-    map_vector("position", Type::Position, MapVector::NextPosition, "the position of the body from which to begin"),
-    map_scalar("heading", Type::ANGLE, MapScalar::NextHeading, "the heading of the body from which to begin"),
-    map_scalar(
-        "side",
-        Type::NUMBER,
-        MapScalar::NextSide,
-        "the side of the whisker that should touch: \u{2212}1 on the right, 1 on the left",
-    ),
-];
-
-const ROUTE: [Member; 5] = [
-    map_vector(
-        "direction",
-        Type::Vector(Dimension::NUMBER),
-        MapVector::RouteDirection,
-        "the direction of motion along the route, of length 1, or 0 at a standstill",
-    ),
-    map_scalar("speed", Type::SPEED, MapScalar::RouteSpeed, "the speed along the route, 0 while there is none"),
-    map_scalar(
-        "yaw_rate",
-        Type::ANGULAR_SPEED,
-        MapScalar::RouteYawRate,
-        "the yaw rate along the route, 0 while there is none",
-    ),
-    map_scalar(
-        "arrived",
-        Type::Bool,
-        MapScalar::RouteIsDone,
-        "true if the body has followed the route and is at its goal",
-    ),
-    map_scalar(
-        "lost",
-        Type::Bool,
-        MapScalar::RouteIsLost,
-        "true if no route leads to the goal, or the body has left it",
-    ),
-];
 
 /// The names of values, their types, and examples.
 type Takes = &'static [(&'static str, Type, &'static str)];
@@ -398,61 +258,16 @@ pub(crate) fn map_event_usage(name: &str, takes: &[(&str, Type, &str)]) -> Strin
     format!("tell map.{name}{values}")
 }
 
-const fn figure(name: &'static str, r#type: Type, figure: RunFigure, meaning: &'static str) -> Member {
-    member(name, r#type, MemberSource::Run(figure), meaning)
-}
-
 /// The members of a run: its verdict, the figures that tests can read, and figures of its states and plots.
 static RUN: LazyLock<Vec<Member>> = LazyLock::new(|| {
     let figures = Metric::ALL.into_iter().filter(|metric| metric.figure().is_in_tests).map(|metric| {
         let Figure { meaning, .. } = *metric.figure();
-        figure(metric.name(), Type::Scalar(metric.figure().dimension()), RunFigure::Metric(metric), meaning)
+        let (r#type, source) =
+            (Type::Scalar(metric.figure().dimension()), MemberSource::Run(RunFigure::Metric(metric)));
+        member(metric.name(), r#type, source, meaning)
     });
     VERDICTS.into_iter().chain(figures).chain(PARTS).collect()
 });
-
-/// The verdicts on a run.
-const VERDICTS: [Member; 5] = [
-    figure(
-        "passed",
-        Type::Bool,
-        RunFigure::Passed,
-        "true if the run fulfils the expectations of its scenario. A scenario without expectations expects completion",
-    ),
-    figure(
-        "completed",
-        Type::Bool,
-        RunFigure::Completed,
-        "true if the run completed: the policy succeeded, the loop closed, the goal was reached, or the time of a scenario without an aim ended",
-    ),
-    figure("failed", Type::Bool, RunFigure::Failed, "true if the run ended in `Failure`"),
-    figure(
-        "timed_out",
-        Type::Bool,
-        RunFigure::TimedOut,
-        "true if the run reached its time limit before the loop closed",
-    ),
-    figure("diverged", Type::Bool, RunFigure::Diverged, "true if the simulation diverged"),
-];
-
-/// Figures of the states and the plots of a run.
-const PARTS: [Member; 5] = [
-    member(
-        "visits",
-        Type::NUMBER,
-        MemberSource::Visits,
-        "the number of entries of the given state: ticks that end in it or in an inner state, after a tick that did not",
-    ),
-    member("time_in", Type::TIME, MemberSource::TimeIn, "the total time in the given state or in an inner state"),
-    member(
-        "least",
-        Type::NUMBER,
-        MemberSource::Plot(PlotFigure::Least),
-        "the least value of the given plot, of its type. Unknown if it was never set",
-    ),
-    member("greatest", Type::NUMBER, MemberSource::Plot(PlotFigure::Greatest), "its greatest value"),
-    member("last", Type::NUMBER, MemberSource::Plot(PlotFigure::Last), "its last value"),
-];
 
 /// The members of a list: the name, the notation and the meaning.
 pub(crate) const LIST_MEMBERS: [(&str, &str, &str); 6] = [

@@ -68,7 +68,7 @@ impl<'f> Compiler<'f> {
     fn mark(&mut self, scope: &Scope<'f>, name: &Name, whisker: &'f Expression) -> Option<()> {
         self.allow_record(whisker.span)?;
         let whisker = self.expect(scope, whisker, Type::Whisker);
-        let Some(mark) = Mark::ALL.into_iter().find(|mark| mark.name() == name.text) else {
+        let Some(mark) = Mark::named(&name.text) else {
             let message = format!("there is no mark `{}`", name.text);
             let diagnostic = Diagnostic::error("P0201", message, name.span, "unknown mark");
             let diagnostic = did_you_mean(diagnostic, &name.text, Mark::ALL.map(Mark::name));

@@ -5,7 +5,7 @@ use rstar::{AABB, RTree};
 
 use vibrissa_runtime::rig::{Platform, Rig, Whisker};
 use vibrissa_runtime::signal::Command;
-use vibrissa_world::geometry::{ContourSet, Point2, Pose, Vector2, unit};
+use vibrissa_world::geometry::{ContourSet, Point2, Pose, TreePoint, Vector2, unit};
 use vibrissa_world::solid::{Part, Solid};
 
 /// With more parts than this, a model contains only those near the platform.
@@ -27,7 +27,7 @@ const INERTIAL_SHARE: f64 = 0.25;
 #[derive(Debug)]
 pub struct Reach {
     surfaces: Option<ContourSet>,
-    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    boxes: RTree<GeomWithData<Rectangle<TreePoint>, usize>>,
     parts: Vec<Part>,
     /// The distance (m) of the farthest point of the rig from the platform's centre of mass.
     extent: f64,
@@ -39,7 +39,7 @@ impl Reach {
     pub fn new(rig: &Rig, solids: &[Solid]) -> Self {
         let boxed = |(index, part): (usize, &Part)| {
             let (low, high) = part.bounds();
-            GeomWithData::new(Rectangle::from_corners([low.x, low.y], [high.x, high.y]), index)
+            GeomWithData::new(Rectangle::from_corners((low.x, low.y), (high.x, high.y)), index)
         };
         let parts: Vec<Part> = solids.iter().flat_map(Solid::parts).cloned().collect();
         let boxes = RTree::bulk_load(parts.iter().enumerate().map(boxed).collect());
@@ -146,7 +146,7 @@ impl Reach {
         let nowhere = (Point2::from(Vector2::repeat(f64::INFINITY)), Point2::from(Vector2::repeat(f64::NEG_INFINITY)));
         let (low, high) = points.iter().fold(nowhere, |(low, high), point| (low.inf(point), high.sup(point)));
         let (low, high) = (low - Vector2::repeat(reach), high + Vector2::repeat(reach));
-        let window = AABB::from_corners([low.x, low.y], [high.x, high.y]);
+        let window = AABB::from_corners((low.x, low.y), (high.x, high.y));
         let mut parts: Vec<usize> = self.boxes.locate_in_envelope_intersecting(window).map(|part| part.data).collect();
         parts.sort_unstable();
         parts

@@ -2,37 +2,24 @@
 
 use super::records::FileMessage;
 
-/// A channel of a recording. Its messages are JSON.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Channel {
-    /// The inputs of a step of the control task.
-    Steps,
-    /// The results of a step that has executed the machine.
-    Ticks,
-    /// Changes of faults.
-    Events,
-    /// Packets to the actuator.
-    Packets,
+vibrissa_runtime::kinds! {
+    /// A channel of a recording. Its messages are JSON.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub(super) enum Channel,
+    /// The topic.
+    fn topic {
+        /// The inputs of a step of the control task.
+        Steps = "steps",
+        /// The results of a step that has executed the machine.
+        Ticks = "ticks",
+        /// Changes of faults.
+        Events = "events",
+        /// Packets to the actuator.
+        Packets = "packets",
+    }
 }
 
 impl Channel {
-    pub(super) const ALL: [Self; 4] = [Self::Steps, Self::Ticks, Self::Events, Self::Packets];
-
-    /// The topic.
-    pub(super) fn topic(self) -> &'static str {
-        match self {
-            Self::Steps => "steps",
-            Self::Ticks => "ticks",
-            Self::Events => "events",
-            Self::Packets => "packets",
-        }
-    }
-
-    /// The channel with a topic.
-    pub(super) fn of(topic: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|channel| channel.topic() == topic)
-    }
-
     /// The name of the schema of its messages.
     pub(super) fn schema_name(self) -> &'static str {
         match self {
@@ -51,11 +38,6 @@ impl Channel {
             Self::Events => include_str!("schema/event.json"),
             Self::Packets => include_str!("schema/packet.json"),
         }
-    }
-
-    /// The number of the channel, from 0.
-    pub(super) fn index(self) -> usize {
-        self as usize
     }
 }
 

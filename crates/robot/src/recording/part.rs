@@ -24,7 +24,7 @@ impl<R: Read> Part<R> {
     /// # Errors
     /// [`ReadError`] if it is no recording that this program can replay.
     pub fn open(input: R) -> Result<Self, ReadError> {
-        let mut items = Records::new(input, Channel::of);
+        let mut items = Records::new(input, Channel::named);
         let (mut identity, mut attachments, mut early) = (None, HashMap::new(), VecDeque::new());
         while early.is_empty() || !is_complete(identity.as_ref(), &attachments) {
             match items.next_record()? {

@@ -62,7 +62,7 @@ fn parts(topic: &str) -> Option<(&str, Option<&str>, Topic)> {
         (word, None) => (None, word),
         (service, Some(word)) => (Some(service), word),
     };
-    let kind = Topic::ALL.into_iter().find(|kind| kind.word() == word)?;
+    let kind = Topic::named(word)?;
     words.next().is_none().then_some((robot, service, kind))
 }
 

@@ -47,112 +47,70 @@ pub enum FieldKind {
     Count,
 }
 
-const fn field(name: &'static str, path: &'static str, kind: FieldKind) -> Field {
-    Field { name, path, kind }
+/// Declares the measurements: the name and the topic, what is a point of each entry, and the tags. Then the fields, each with its path.
+macro_rules! measurements {
+    ($($name:literal $topic:ident $each:literal [$(($tag:literal, $of:literal)),*]
+        { $($kind:ident $field:literal = $path:literal;)* })*) => {
+        /// All measurements.
+        pub const MEASUREMENTS: [Measurement; [$($name),*].len()] = [$(Measurement {
+            name: $name,
+            topic: Topic::$topic,
+            each: $each,
+            tags: &[$(($tag, $of)),*],
+            fields: &[$(Field { name: $field, path: $path, kind: FieldKind::$kind }),*],
+        }),*];
+    };
 }
 
-use FieldKind::{Count, Integer, Number, Text, Truth};
-
-/// All measurements.
-pub const MEASUREMENTS: [Measurement; 9] = [
-    Measurement {
-        name: "vibrissa_status",
-        topic: Topic::Status,
-        each: "",
-        tags: &[],
-        // The message is plain text. Its field has the name that Telegraf gives such messages.
-        fields: &[field("value", "", Text)],
-    },
-    Measurement {
-        name: "vibrissa_state",
-        topic: Topic::State,
-        each: "",
-        tags: &[("policy", "policy")],
-        fields: &[
-            field("state", "state", Text),
-            field("has_failed", "has_failed", Truth),
-            field("is_paused", "is_paused", Truth),
-        ],
-    },
-    Measurement {
-        name: "vibrissa_health",
-        topic: Topic::Health,
-        each: "",
-        tags: &[],
-        fields: &[
-            field("is_running", "is_running", Truth),
-            field("faults", "faults/*", Count),
-            field("missed_acquisition", "missed_periods/acquisition", Integer),
-            field("missed_control", "missed_periods/control", Integer),
-            field("missed_supervision", "missed_periods/supervision", Integer),
-            field("lost_records", "lost_records", Integer),
-            field("buffered_messages", "buffered_messages", Integer),
-            field("dropped_messages", "dropped_messages", Integer),
-        ],
-    },
-    Measurement {
-        name: "vibrissa_event",
-        topic: Topic::Events,
-        each: "",
-        tags: &[("fault", "fault"), ("part", "part")],
-        fields: &[field("change", "change", Text)],
-    },
-    Measurement {
-        name: "vibrissa_sample",
-        topic: Topic::Samples,
-        each: "/buses/*/whiskers/*",
-        tags: &[("whisker", "whisker")],
-        // The last round of the message. A database of every round would be ten times larger.
-        fields: &[
-            field("field_t", "field_t/*[last()]", Number),
-            field("base_angle_rad", "base_angle_rad/*[last()]", Number),
-        ],
-    },
-    Measurement {
-        name: "vibrissa_pose",
-        topic: Topic::Perception,
-        each: "",
-        tags: &[],
-        fields: &[
-            field("x_m", "pose/position_m/*[1]", Number),
-            field("y_m", "pose/position_m/*[2]", Number),
-            field("heading_rad", "pose/heading_rad", Number),
-            field("sample_age_s", "sample_age_s", Number),
-        ],
-    },
-    Measurement {
-        name: "vibrissa_whisker",
-        topic: Topic::Perception,
-        each: "/whiskers/*",
-        tags: &[("whisker", "whisker")],
-        fields: &[
-            field("base_angle_rad", "base_angle_rad", Number),
-            field("tip_x_m", "tip_m/*[1]", Number),
-            field("tip_y_m", "tip_m/*[2]", Number),
-        ],
-    },
-    Measurement {
-        name: "vibrissa_command",
-        topic: Topic::CommandLog,
-        each: "",
-        tags: &[],
-        fields: &[
-            field("velocity_x_m_per_s", "machine/velocity_m_per_s/*[1]", Number),
-            field("velocity_y_m_per_s", "machine/velocity_m_per_s/*[2]", Number),
-            field("yaw_rate_rad_per_s", "machine/yaw_rate_rad_per_s", Number),
-            field("packets", "packets/*", Count),
-        ],
-    },
-    Measurement {
-        name: "vibrissa_latency",
-        topic: Topic::Latency,
-        each: "",
-        tags: &[],
-        fields: &[
-            field("tick_largest_s", "tick/largest_s", Number),
-            field("tick_lateness_largest_s", "tick_lateness/largest_s", Number),
-            field("sample_age_largest_s", "sample_age/largest_s", Number),
-            field("round_largest_s", "rounds/*[1]/largest_s", Number),
-        ],
-    },
-];
+measurements! {
+    // The message is plain text. Its field has the name that Telegraf gives such messages.
+    "vibrissa_status" Status "" [] {
+        Text "value" = "";
+    }
+    "vibrissa_state" State "" [("policy", "policy")] {
+        Text "state" = "state";
+        Truth "has_failed" = "has_failed";
+        Truth "is_paused" = "is_paused";
+    }
+    "vibrissa_health" Health "" [] {
+        Truth "is_running" = "is_running";
+        Count "faults" = "faults/*";
+        Integer "missed_acquisition" = "missed_periods/acquisition";
+        Integer "missed_control" = "missed_periods/control";
+        Integer "missed_supervision" = "missed_periods/supervision";
+        Integer "lost_records" = "lost_records";
+        Integer "buffered_messages" = "buffered_messages";
+        Integer "dropped_messages" = "dropped_messages";
+    }
+    "vibrissa_event" Events "" [("fault", "fault"), ("part", "part")] {
+        Text "change" = "change";
+    }
+    // The last round of the message. A database of every round would be ten times larger.
+    "vibrissa_sample" Samples "/buses/*/whiskers/*" [("whisker", "whisker")] {
+        Number "field_t" = "field_t/*[last()]";
+        Number "base_angle_rad" = "base_angle_rad/*[last()]";
+    }
+    "vibrissa_pose" Perception "" [] {
+        Number "x_m" = "pose/position_m/*[1]";
+        Number "y_m" = "pose/position_m/*[2]";
+        Number "heading_rad" = "pose/heading_rad";
+        Number "sample_age_s" = "sample_age_s";
+    }
+    "vibrissa_whisker" Perception "/whiskers/*" [("whisker", "whisker")] {
+        Number "base_angle_rad" = "base_angle_rad";
+        Number "tip_x_m" = "tip_m/*[1]";
+        Number "tip_y_m" = "tip_m/*[2]";
+    }
+    "vibrissa_command" CommandLog "" [] {
+        Number "velocity_x_m_per_s" = "machine/velocity_m_per_s/*[1]";
+        Number "velocity_y_m_per_s" = "machine/velocity_m_per_s/*[2]";
+        Number "yaw_rate_rad_per_s" = "machine/yaw_rate_rad_per_s";
+        Count "packets" = "packets/*";
+    }
+    "vibrissa_latency" Latency "" [] {
+        Number "tick_largest_s" = "tick/largest_s";
+        Number "tick_lateness_largest_s" = "tick_lateness/largest_s";
+        Number "sample_age_largest_s" = "sample_age/largest_s";
+        Number "round_largest_s" = "rounds/*[1]/largest_s";
+    }
+}

@@ -1,8 +1,6 @@
 //! The topics.
 
-use crate::kinds::kinds;
-
-kinds! {
+vibrissa_runtime::kinds! {
     /// A topic of a robot. Its name is `vibrissa/NAME/` and a word.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
     pub enum Topic,

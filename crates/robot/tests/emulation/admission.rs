@@ -36,7 +36,7 @@ fn a_loop_that_is_slower_than_configured_misses_no_period_and_has_a_value_in_eve
         });
         assert_eq!(stopped.unwrap(), Stopped::Time);
         assert!(robot.take_events().is_empty());
-        assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::COUNT]);
+        assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::ALL.len()]);
         assert_eq!(unknown, 0);
         let (control_rate, sample_rate) = rates;
         // The neutral values are the means of 300 rounds.

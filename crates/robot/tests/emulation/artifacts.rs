@@ -31,7 +31,7 @@ fn run(machine: &[u8], seed: u64) -> (Vec<[u64; 3]>, BTreeSet<String>) {
     };
     assert_eq!(robot.run(20_000 * MS, observe).unwrap(), Stopped::Time);
     assert!(robot.take_events().is_empty());
-    assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::COUNT]);
+    assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::ALL.len()]);
     (commands, states)
 }
 

@@ -15,7 +15,7 @@ fn a_robot_without_faults_misses_no_period_and_reports_no_fault() {
     });
     assert_eq!(stopped.unwrap(), Stopped::Time);
     assert!(robot.take_events().is_empty());
-    assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::COUNT]);
+    assert_eq!(Phase::ALL.map(|phase| robot.vitals().missed(phase)), [0; Phase::ALL.len()]);
     // The first second goes to the neutral values.
     assert!((265..=270).contains(&ticks), "{ticks}");
     // A value is 2.6 ms old when it is read, and the tick begins 1.5 ms after the round.

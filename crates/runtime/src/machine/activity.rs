@@ -79,7 +79,7 @@ impl Activity {
         program: &Program,
         senses: &mut S,
         action: &mut Action,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) -> (Result<(), End>, Option<Fallback>) {
         let now = senses.time();
         self.show_nothing(program);
@@ -140,7 +140,7 @@ impl Activity {
         program: &'p Program,
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) -> Option<(TransitionId, &'p Target)> {
         (0..self.active.states().len())
             .find_map(|level| self.enabled(program, Some(self.active.states()[level]), now, senses, observer))
@@ -154,7 +154,7 @@ impl Activity {
         (target, arguments, resume): (usize, &Block, bool),
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) {
         let common_ancestor = program.common_ancestor(from, target);
         for left in program.outward(self.state()).take_while(|&left| Some(left) != common_ancestor) {
@@ -173,7 +173,7 @@ impl Activity {
         (target, resume): (usize, bool),
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) {
         let (configuration, first) = (
             Configuration::to(program, target),
@@ -201,7 +201,7 @@ impl Activity {
         index: usize,
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) {
         let state = &program.states[index];
         self.active = Configuration::to(program, index);
@@ -227,7 +227,7 @@ impl Activity {
         moment: Moment,
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) {
         let contracts = state.map_or(&program.contracts, |state| &program.states[state].contracts);
         for (index, contract) in contracts.iter().enumerate().filter(|(_, contract)| contract.moment == moment) {
@@ -246,7 +246,7 @@ impl Activity {
         program: &Program,
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) {
         self.check_contracts(program, None, Moment::Tick, now, senses, observer);
         for level in 0..self.active.states().len() {
@@ -322,7 +322,7 @@ impl Activity {
         now: f64,
         senses: &mut S,
         action: &mut Action,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) -> (Result<(), End>, Option<Fallback>) {
         let outcome = match program.fallback_of(state_left) {
             None => return (Err(End::Failure(cause.failure(&program.states[state_left].name))), None),
@@ -359,7 +359,7 @@ impl Activity {
         from: Option<usize>,
         now: f64,
         senses: &mut S,
-        observer: &mut impl Observer,
+        observer: &mut (impl Observer + ?Sized),
     ) -> Option<(TransitionId, &'p Target)> {
         let (transitions, since) = match from {
             None => (&program.always, 0.0),

@@ -125,26 +125,16 @@ pub enum MapQuestion {
     IsTraced,
 }
 
-/// A mark of a policy for the evaluation of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Mark {
-    /// The whisker has lost the object at an edge.
-    Lost,
-    /// The whisker has found contact again.
-    Found,
-}
-
-impl Mark {
-    /// All marks.
-    pub const ALL: [Self; 2] = [Self::Lost, Self::Found];
-
+crate::kinds! {
+    /// A mark of a policy for the evaluation of a run.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Mark,
     /// The keyword of this mark in a policy.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Lost => "lost",
-            Self::Found => "found",
-        }
+    fn name {
+        /// The whisker has lost the object at an edge.
+        Lost = "lost",
+        /// The whisker has found contact again.
+        Found = "found",
     }
 }
 

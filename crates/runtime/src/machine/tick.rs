@@ -168,7 +168,7 @@ impl Machine {
     }
 
     /// Executes one [`tick`](Self::tick). `observer` receives the guards that are tried and the transitions that are taken.
-    pub fn tick_observed<S: Senses>(&mut self, senses: &mut S, observer: &mut impl Observer) -> Tick {
+    pub fn tick_observed<S: Senses>(&mut self, senses: &mut S, observer: &mut (impl Observer + ?Sized)) -> Tick {
         if self.end.is_some() {
             self.activity.show_nothing(&self.program);
             return Tick { action: Action::Stop, status: self.status(), fallback: None };

@@ -14,6 +14,7 @@ mod low_pass;
 mod measured_noise;
 mod moment_and_shear;
 mod motions;
+mod newest;
 mod offsets;
 mod one_channel;
 mod perception;

@@ -147,19 +147,18 @@ impl Perception {
             let (length, bend_sign) = (whisker.shaft.length, whisker.side());
             // A whisker without contacts has no friction either.
             let friction = index.map_or(0.0, |_| whisker.friction(sensing));
-            let mechanics = || TipCurve::with_friction(&whisker, friction);
+            let mechanics = || TipCurve::shared(&whisker, friction);
             let too_few = || PerceptionError::NoSurface { whisker: whisker.name.clone(), estimator: kind };
             let curve = match kind {
                 Kind::Polynomial => match calibration.and_then(|calibration| calibration.polynomial.as_ref()) {
-                    Some(measured) => TipCurve::by_polynomial(measured, bend_sign),
-                    None => mechanics()?.to_polynomial(length, bend_sign).ok_or_else(too_few)?,
+                    Some(measured) => Arc::new(TipCurve::by_polynomial(measured, bend_sign)),
+                    None => Arc::new(mechanics()?.to_polynomial(length, bend_sign).ok_or_else(too_few)?),
                 },
                 _ => match calibration.and_then(|calibration| calibration.one_channel.as_ref()) {
-                    Some(measured) => TipCurve::calibrated(measured),
+                    Some(measured) => Arc::new(TipCurve::calibrated(measured)),
                     None => mechanics()?,
                 },
             };
-            let curve = Arc::new(curve);
             let estimator: Box<dyn ContactEstimator> = match kind {
                 Kind::OneChannel | Kind::Polynomial => Box::new(OneChannel::new(Arc::clone(&curve), sensing, length)),
                 Kind::Sliding => Box::new(Sliding::new(&whisker, sensing)),
@@ -237,6 +236,10 @@ impl Perception {
     /// depends on it. With [`keep_for`](Self::keep_for) it has its last value for some time. The time keeps its last value.
     pub fn update(&mut self, samples: &[Sample]) {
         for index in 0..self.loops.len() {
+            // A whisker that the rig lacks records no tip.
+            if self.in_sample[index].is_none() {
+                continue;
+            }
             let tip_world = self.recorded_tip(index);
             self.loops[index].update(self.time, tip_world, self.body.position);
         }
@@ -281,9 +284,22 @@ impl Perception {
         let body = Frame::new(self.body);
         let is_same = self.at_effect.heading.to_bits() == self.body.heading.to_bits();
         let at_effect = if is_same { Frame { pose: self.at_effect, ..body } } else { Frame::new(self.at_effect) };
-        for whisker in &mut self.whiskers {
-            whisker.end(waited);
-            whisker.update(&body, &at_effect, is_measured, pose_deviation);
+        // Whiskers that the rig lacks are all alike.
+        let mut first_lacking: Option<usize> = None;
+        for index in 0..self.whiskers.len() {
+            let is_lacking = self.in_sample[index].is_none();
+            let (before, rest) = self.whiskers.split_at_mut(index);
+            let Some(whisker) = rest.first_mut() else { break };
+            match first_lacking {
+                Some(first) if is_lacking => whisker.update_like(&before[first]),
+                _ => {
+                    whisker.end(waited);
+                    whisker.update(&body, &at_effect, is_measured, pose_deviation);
+                }
+            }
+            if is_lacking && first_lacking.is_none() {
+                first_lacking = Some(index);
+            }
         }
         for contour in &mut self.contours {
             contour.begin();

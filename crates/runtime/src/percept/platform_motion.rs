@@ -21,13 +21,20 @@ pub(super) struct PlatformMotion {
     period: f64,
     step: f64,
     steps: usize,
-    /// The servos of the grid, fastest first.
-    servos: [Servo; SERVOS.len()],
+    /// Time constants (s) of the grid for velocities.
+    times: EachServo,
+    /// Share of the speed difference that is left after a step, the equivalent time (s) at that difference, and the speed, by
+    /// coordinate.
+    left: [EachServo; 3],
+    behind: [EachServo; 3],
+    speed: [EachServo; 3],
+    /// Motion since the start of the run at the newest steps, by coordinate.
+    motions: [[EachServo; 3]; MEMORY],
     /// Index of the newest step in the memory of motions, and the number of steps since the last gap.
     newest: usize,
     known: usize,
-    /// Averages of squared differences (m²), by servo and delay.
-    costs: [[f64; DELAYS]; SERVOS.len()],
+    /// Averages of squared differences (m²), by delay.
+    costs: [EachServo; DELAYS],
     /// Pose of the last tick, or unknown.
     pose: Pose,
     /// The current command.
@@ -42,18 +49,8 @@ pub(super) struct PlatformMotion {
     is_settled: bool,
 }
 
-/// A platform with the time constant of one servo.
-#[derive(Debug, Clone)]
-struct Servo {
-    /// Time constant (s) for velocities.
-    time: f64,
-    /// Share of the speed difference that is left after a step, and the equivalent time (s) at that difference.
-    left: Motion,
-    behind: Motion,
-    speed: Motion,
-    /// Motion since the start of the run, at the newest steps.
-    motions: [Motion; MEMORY],
-}
+/// A value for each servo of the grid, fastest first. Neighbouring values let one instruction compute several of them.
+type EachServo = [f64; SERVOS.len()];
 
 /// Time constants of the grid over that of the rig, and the index of the rig's one.
 const SERVOS: [f64; 8] = [
@@ -102,21 +99,22 @@ impl PlatformMotion {
         let step = period / steps as f64;
         let stated = rig.platform.servos();
         let stated_servo = stated.x;
-        let servo = |factor: f64| {
-            let times = factor * stated;
-            let left = times.map(|time| math::exp(-step / time));
-            let (speed, motions) = (Motion::zeros(), [Motion::zeros(); MEMORY]);
-            let behind = times.component_mul(&left.map(|left| 1.0 - left));
-            Servo { time: times.x, left, behind, speed, motions }
-        };
+        let times = <[f64; 3]>::from(stated).map(|stated| SERVOS.map(|factor| factor * stated));
+        let left = times.map(|times| times.map(|time| math::exp(-step / time)));
+        let behind = [0, 1, 2].map(|axis| std::array::from_fn(|servo| times[axis][servo] * (1.0 - left[axis][servo])));
+        let none = [[0.0; SERVOS.len()]; 3];
         Self {
             period,
             step,
             steps,
-            servos: SERVOS.map(servo),
+            times: times[0],
+            left,
+            behind,
+            speed: none,
+            motions: [none; MEMORY],
             newest: 0,
             known: 0,
-            costs: [[0.0; DELAYS]; SERVOS.len()],
+            costs: [[0.0; SERVOS.len()]; DELAYS],
             pose: Pose::UNKNOWN,
             command: Command::STOP,
             stated_servo,
@@ -147,18 +145,25 @@ impl PlatformMotion {
         if (period - self.period).abs() > 0.5 * self.period {
             self.known = 0;
         }
-        let aim = self.command.velocity_world.push(self.command.yaw_rate);
+        let aim: [f64; 3] = self.command.velocity_world.push(self.command.yaw_rate).into();
         let (step, steps, first) = (self.step, self.steps, self.newest);
-        for servo in &mut self.servos {
-            let by_aim = aim.component_mul(&servo.behind.map(|behind| step - behind));
-            let gained = aim.component_mul(&servo.left.map(|left| 1.0 - left));
-            let (mut newest, mut sum) = (first, servo.motions[first]);
+        for (axis, aim) in aim.into_iter().enumerate() {
+            let (left, behind) = (&self.left[axis], &self.behind[axis]);
+            let (mut by_aim, mut gained) = ([0.0; SERVOS.len()], [0.0; SERVOS.len()]);
+            for servo in 0..SERVOS.len() {
+                by_aim[servo] = aim * (step - behind[servo]);
+                gained[servo] = aim * (1.0 - left[servo]);
+            }
+            let (mut newest, mut sum, mut speed) = (first, self.motions[first][axis], self.speed[axis]);
             for _ in 0..steps {
                 newest = if newest + 1 == MEMORY { 0 } else { newest + 1 };
-                sum += servo.speed.component_mul(&servo.behind) + by_aim;
-                servo.speed = servo.speed.component_mul(&servo.left) + gained;
-                servo.motions[newest] = sum;
+                for servo in 0..SERVOS.len() {
+                    sum[servo] += speed[servo] * behind[servo] + by_aim[servo];
+                    speed[servo] = speed[servo] * left[servo] + gained[servo];
+                }
+                self.motions[newest][axis] = sum;
             }
+            self.speed[axis] = speed;
         }
         self.newest = (first + steps) % MEMORY;
         self.known = (self.known + self.steps).min(MEMORY);
@@ -173,15 +178,14 @@ impl PlatformMotion {
         }
         let turn = turn_between(before.heading, pose.heading);
         let measured = (pose.position - before.position).push(turn);
-        let ends: [(usize, usize); DELAYS] = std::array::from_fn(|delay| {
+        for (delay, costs) in self.costs.iter_mut().enumerate() {
             let back = delay * DELAY_STEPS;
-            (earlier(self.newest, back), earlier(self.newest, back + self.steps))
-        });
-        for (servo, costs) in self.servos.iter().zip(&mut self.costs) {
-            for ((end, start), cost) in ends.iter().zip(costs) {
-                let expected = servo.motions[*end] - servo.motions[*start];
-                let missing = measured - expected;
-                let squared = missing.xy().norm_squared() + math::square(ARM * missing.z);
+            let end = &self.motions[earlier(self.newest, back)];
+            let start = &self.motions[earlier(self.newest, back + self.steps)];
+            let missing = |axis: usize, servo: usize| measured[axis] - (end[axis][servo] - start[axis][servo]);
+            for (servo, cost) in costs.iter_mut().enumerate() {
+                let (x, y) = (missing(0, servo), missing(1, servo));
+                let squared = (x * x + y * y) + math::square(ARM * missing(2, servo));
                 *cost = *cost * REMEMBERED + squared;
             }
         }
@@ -192,21 +196,22 @@ impl PlatformMotion {
 
     /// Follows the servo and the delay with the smallest differences, if they are significant.
     fn estimate(&mut self) {
-        let stated = self.costs[STATED][0];
-        let (mut best, mut at) = (stated, (STATED, 0));
-        for (servo, costs) in self.costs.iter().enumerate() {
-            for (delay, &cost) in costs.iter().enumerate() {
-                if cost < best {
-                    (best, at) = (cost, (servo, delay));
-                }
-            }
-        }
-        if stated < LEAST_COST || best > MOST_LEFT * stated {
+        let stated = self.costs[0][STATED];
+        let least = self.costs.iter().flatten().copied().fold(stated, math::min);
+        if stated < LEAST_COST || least > MOST_LEFT * stated {
             self.is_settled = false;
             return;
         }
-        let by_delay = |delay: usize| self.costs[at.0][delay];
-        let by_servo = |servo: usize| self.costs[servo][at.1];
+        let (mut best, mut at) = (stated, (STATED, 0));
+        for servo in 0..SERVOS.len() {
+            for (delay, costs) in self.costs.iter().enumerate() {
+                if costs[servo] < best {
+                    (best, at) = (costs[servo], (servo, delay));
+                }
+            }
+        }
+        let by_delay = |delay: usize| self.costs[delay][at.0];
+        let by_servo = |servo: usize| self.costs[at.1][servo];
         let delay = (at.1 as f64 + vertex(at.1, DELAYS, by_delay)) * (DELAY_STEPS as f64 * self.step);
         // The grid is logarithmic, with two servos for a factor of 2.
         let ratio = math::powf(2.0, (at.0 as f64 + vertex(at.0, SERVOS.len(), by_servo) - STATED as f64) / 2.0);
@@ -234,21 +239,23 @@ impl PlatformMotion {
 
     /// The expected motion from `from` to `to` (s) before the newest step.
     pub(super) fn between(&self, from: f64, to: f64) -> Motion {
-        let servo = self.servos.iter().min_by(|a, b| {
-            let distance = |servo: &Servo| (servo.time - self.servo).abs();
-            distance(a).total_cmp(&distance(b))
+        let nearest = self.times.iter().enumerate().min_by(|(_, a), (_, b)| {
+            let distance = |time: f64| (time - self.servo).abs();
+            distance(**a).total_cmp(&distance(**b))
         });
-        servo.map_or_else(Motion::zeros, |servo| self.motion(servo, to) - self.motion(servo, from))
+        nearest.map_or_else(Motion::zeros, |(servo, _)| self.motion(servo, to) - self.motion(servo, from))
     }
 
     /// The motion of a servo up to `ago` (s) before the newest step, interpolated between steps.
-    fn motion(&self, servo: &Servo, ago: f64) -> Motion {
+    fn motion(&self, servo: usize, ago: f64) -> Motion {
         let along = (ago / self.step).clamp(0.0, (MEMORY - 2) as f64);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the memory")]
         let whole = along as usize;
-        let (after, before) =
-            (servo.motions[earlier(self.newest, whole)], servo.motions[earlier(self.newest, whole + 1)]);
-        after.lerp(&before, along - whole as f64)
+        let at = |step: usize| {
+            let [x, y, turn] = &self.motions[earlier(self.newest, step)];
+            Motion::new(x[servo], y[servo], turn[servo])
+        };
+        at(whole).lerp(&at(whole + 1), along - whole as f64)
     }
 }
 

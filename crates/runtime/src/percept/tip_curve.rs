@@ -1,6 +1,8 @@
 //! The contact position of a tip as a function of the base angle alone.
 
+use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -8,7 +10,9 @@ use crate::calibration::{ContactCurve, ContactSet, DeflectionPolynomial};
 use crate::geometry::{rotate, unit};
 use crate::math;
 use crate::mechanics::ShaftChain;
-use crate::rig::Whisker;
+use crate::rig::{Hinge, Shaft, Whisker};
+
+use super::newest::Newest;
 
 /// The contact position of the tip as a function of the base angle alone.
 ///
@@ -101,6 +105,23 @@ impl TipCurve {
         Self::with_friction(whisker, 0.0)
     }
 
+    /// Returns the curve of [`with_friction`](Self::with_friction) from a cache of the newest curves. Whiskers that are mirror
+    /// images of each other share a curve.
+    ///
+    /// # Errors
+    /// As [`with_friction`](Self::with_friction).
+    pub fn shared(whisker: &Whisker, friction: f64) -> Result<Arc<Self>, TipCurveError> {
+        static NEWEST: Newest<(Shaft, Hinge, [f64; 2]), TipCurve> = Newest::new();
+        let shaft = Self::bent_to_the_left(whisker).shaft.clone();
+        let key = (shaft, whisker.hinge.clone(), [whisker.direction_body.abs(), friction]);
+        NEWEST.get_or(key, || Self::with_friction(whisker, friction))
+    }
+
+    /// The whisker, or its mirror image, whose usual bend is counter-clockwise.
+    fn bent_to_the_left(whisker: &Whisker) -> Cow<'_, Whisker> {
+        if whisker.side() < 0.0 { Cow::Owned(whisker.mirrored()) } else { Cow::Borrowed(whisker) }
+    }
+
     /// Computes the curve of `whisker` on surfaces along which it slides forward with this coefficient of friction. It ends at
     /// the largest base angle at which the chain has an equilibrium.
     ///
@@ -108,10 +129,7 @@ impl TipCurve {
     /// [`TipCurveError`] if the whisker sticks instead of sliding, or its chain has an equilibrium in less than a tenth of the
     /// range.
     pub fn with_friction(whisker: &Whisker, friction: f64) -> Result<Self, TipCurveError> {
-        let chain = match whisker.side() {
-            side if side < 0.0 => ShaftChain::new(&whisker.mirrored()),
-            _ => ShaftChain::new(whisker),
-        };
+        let chain = ShaftChain::new(&Self::bent_to_the_left(whisker));
         let (force_direction, normal_direction) = Self::directions(whisker, friction)?;
         let shaft = &whisker.shaft;
         let step = MOMENT_RANGE * shaft.tip_stiffness() / shaft.length / whisker.hinge.stiffness / STEPS as f64;

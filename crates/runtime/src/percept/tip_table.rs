@@ -1,15 +1,17 @@
 //! The tip position as a function of the base angle and the direction of the contact force.
 
 use std::array;
-use std::collections::VecDeque;
+use std::convert::Infallible;
 use std::f64::consts::PI;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use nalgebra::Vector2;
 
 use crate::math;
 use crate::mechanics::{Equilibrium, EquilibriumProblem, ShaftChain};
 use crate::rig::{Hinge, Shaft, Whisker};
+
+use super::newest::Newest;
 
 /// The tip position as a function of the base angle and the direction of the force at the tip. It is a table of
 /// equilibria of the whisker's chain of links, with cubic interpolation through four of them in each direction.
@@ -45,8 +47,6 @@ const FIRST_DIRECTION: f64 = 50.0 * PI / 180.0;
 const DIRECTION_STEP: f64 = 2.0 * PI / 180.0;
 /// Number of directions, up to 230°.
 const DIRECTIONS: usize = 91;
-/// Number of cached tables, of 100 kB each.
-const MOST_KEPT: usize = 32;
 /// Number of equilibria that are solved in parallel.
 const SIDE_BY_SIDE: usize = 4;
 /// Number of directions, up to 174°, in which a force bends a straight whisker.
@@ -78,17 +78,10 @@ impl TipTable {
     /// position share a table, as do most runs of a process.
     #[must_use]
     pub fn shared(whisker: &Whisker) -> Arc<Self> {
-        static KEPT: Mutex<VecDeque<(Shaft, Hinge, Arc<TipTable>)>> = Mutex::new(VecDeque::new());
-        // A table is complete before it is cached, so a panic cannot leave an incomplete one.
-        let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_same = |(shaft, hinge, _): &&(Shaft, Hinge, _)| (shaft, hinge) == (&whisker.shaft, &whisker.hinge);
-        if let Some((.., table)) = kept().iter().find(is_same) {
-            return Arc::clone(table);
-        }
-        let table = Arc::new(Self::new(whisker));
-        let mut kept = kept();
-        kept.truncate(MOST_KEPT - 1);
-        kept.push_front((whisker.shaft.clone(), whisker.hinge.clone(), Arc::clone(&table)));
+        // 100 kB each.
+        static NEWEST: Newest<(Shaft, Hinge), TipTable> = Newest::new();
+        let key = (whisker.shaft.clone(), whisker.hinge.clone());
+        let Ok(table) = NEWEST.get_or::<Infallible>(key, || Ok(Self::new(whisker)));
         table
     }
 

@@ -243,6 +243,14 @@ impl PerceivedWhisker {
         self.marks = Default::default();
     }
 
+    /// Updates a whisker that the rig lacks from `other`, which it lacks too and which is updated.
+    pub(super) fn update_like(&mut self, other: &Self) {
+        (self.base_world, self.yaw, self.base_at_effect) = (other.base_world, other.yaw, other.base_at_effect);
+        self.contact = other.contact;
+        self.contour.begin();
+        self.marks = Default::default();
+    }
+
     /// Uses the measured noise if it has changed.
     fn update_noise(&mut self) {
         let noise = self.noise.value();

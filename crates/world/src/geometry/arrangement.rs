@@ -7,7 +7,7 @@ use rstar::{AABB, RTree};
 
 use super::simple::{MAX_PAIRS, crossings, grown};
 use super::union::TOUCHING;
-use super::{Arc, BoundingBox, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment};
+use super::{Arc, BoundingBox, Contour, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, TreePoint, tree_point};
 
 /// The largest number of intersections.
 const MAX_CUTS: usize = 20_000;
@@ -76,8 +76,8 @@ impl Arrangement {
     /// The closed outlines of the outer parts. `None` if one of them does not close.
     pub(super) fn loops(&self) -> Option<Vec<Loop>> {
         let outer = || (0..self.parts.len()).filter(|&part| self.is_outer[part]);
-        let starts = outer().map(|part| GeomWithData::new(self.parts[part].start().into(), part));
-        let starts: RTree<GeomWithData<[f64; 2], usize>> = RTree::bulk_load(starts.collect());
+        let starts = outer().map(|part| GeomWithData::new(tree_point(self.parts[part].start()), part));
+        let starts: RTree<GeomWithData<TreePoint, usize>> = RTree::bulk_load(starts.collect());
         let mut is_left = self.is_outer.clone();
         let mut loops = Vec::new();
         for first in outer() {
@@ -105,7 +105,7 @@ impl Arrangement {
     fn following(
         &self,
         part: usize,
-        starts: &RTree<GeomWithData<[f64; 2], usize>>,
+        starts: &RTree<GeomWithData<TreePoint, usize>>,
         is_free: impl Fn(usize) -> bool,
     ) -> Option<usize> {
         let own = self.next[part];
@@ -113,7 +113,7 @@ impl Arrangement {
             return Some(own);
         }
         let end = self.parts[part].end();
-        let near = starts.locate_within_distance(end.into(), MAX_GAP * MAX_GAP).map(|start| start.data);
+        let near = starts.locate_within_distance(tree_point(end), MAX_GAP * MAX_GAP).map(|start| start.data);
         let apart = |&next: &usize| (self.parts[next].start() - end).norm();
         near.filter(|&next| is_free(next)).min_by(|a, b| apart(a).total_cmp(&apart(b)))
     }
@@ -129,7 +129,7 @@ pub(super) struct Near<'m> {
 }
 
 /// An item with its bounding box, enlarged by the touching distance.
-type Boxed<T> = GeomWithData<Rectangle<[f64; 2]>, T>;
+type Boxed<T> = GeomWithData<Rectangle<TreePoint>, T>;
 
 fn boxed<T>(bounds: &BoundingBox, data: T) -> Boxed<T> {
     let frame = grown(bounds, TOUCHING);
@@ -180,7 +180,8 @@ impl<'m> Near<'m> {
     fn is_outer(&self, part: &Part, work: &mut usize) -> Option<bool> {
         let along = 0.5 * (part.from + part.to);
         let (place, tangent) = (part.piece.point_at(along), part.piece.tangent_at(along));
-        let near = self.frames.locate_in_envelope_intersecting(AABB::from_point(place.into())).map(|frame| frame.data);
+        let near =
+            self.frames.locate_in_envelope_intersecting(AABB::from_point(tree_point(place))).map(|frame| frame.data);
         for index in near.filter(|&other| other != part.member) {
             *work += 1;
             if *work > MAX_PAIRS {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rstar::RTree;
 
 use super::distance::Leaf;
-use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, corner, simple};
+use super::{BoundingBox, ContourError, Piece, Point2, Pose, Vector2, corner, plane_point, simple};
 
 /// The largest distance (m) between the end of a piece and the start of the next.
 pub const JOIN_TOLERANCE: f64 = 1e-9;
@@ -97,7 +97,7 @@ impl Contour {
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         let envelope = self.tree.root().envelope();
-        BoundingBox::around(Point2::from(envelope.lower()), Point2::from(envelope.upper()))
+        BoundingBox::around(plane_point(envelope.lower()), plane_point(envelope.upper()))
     }
 
     /// The enclosed area (m²), 0 for an open contour.

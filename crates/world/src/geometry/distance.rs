@@ -4,7 +4,9 @@ use std::cell::Cell;
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
-use super::{Contour, Piece, Point2, Vector2, corner, min_distance, min_distance_down_to};
+use super::{
+    Contour, Piece, Point2, TreePoint, Vector2, corner, min_distance, min_distance_down_to, plane_point, tree_point,
+};
 
 /// The rounding error (m) of a bounding box.
 const BOX_ROUNDING: f64 = 1e-9;
@@ -114,7 +116,7 @@ impl Contour {
     fn project(&self, point: Point2) -> (usize, f64) {
         // The tree's `nearest_neighbor` prunes by a bound that assumes exact boxes. It misses a nearest piece at a
         // corner of its box now and then. The iterator does not.
-        let nearest = self.tree.nearest_neighbor_iter([point.x, point.y]).next();
+        let nearest = self.tree.nearest_neighbor_iter(tree_point(point)).next();
         // Only points that are not finite have no nearest piece. Their distances are not finite either.
         let index = nearest.map_or(0, |leaf| leaf.index);
         (index, self.pieces[index].nearest(point))
@@ -159,14 +161,14 @@ pub(super) struct Leaf {
     pub(super) piece: Piece,
     /// The spokes of an arc, which every distance query needs.
     spokes: [Vector2; 2],
-    envelope: AABB<[f64; 2]>,
+    envelope: AABB<TreePoint>,
 }
 
 impl Leaf {
     pub(super) fn tree(pieces: &[Piece]) -> RTree<Self> {
         let leaf = |(index, piece): (usize, &Piece)| {
             let bounds = piece.bounding_box();
-            let envelope = AABB::from_corners(bounds.min.into(), bounds.max.into());
+            let envelope = AABB::from_corners(tree_point(bounds.min), tree_point(bounds.max));
             let spokes = if let Piece::Arc(arc) = piece { arc.spokes() } else { [Vector2::zeros(); 2] };
             Self { index, piece: *piece, spokes, envelope }
         };
@@ -184,7 +186,7 @@ impl Leaf {
 }
 
 impl RTreeObject for Leaf {
-    type Envelope = AABB<[f64; 2]>;
+    type Envelope = AABB<TreePoint>;
 
     fn envelope(&self) -> Self::Envelope {
         self.envelope
@@ -192,7 +194,7 @@ impl RTreeObject for Leaf {
 }
 
 impl PointDistance for Leaf {
-    fn distance_2(&self, point: &[f64; 2]) -> f64 {
-        self.distance(Point2::from(*point)).powi(2)
+    fn distance_2(&self, point: &TreePoint) -> f64 {
+        self.distance(plane_point(*point)).powi(2)
     }
 }

@@ -2,7 +2,7 @@
 
 use rstar::{AABB, ParentNode, RTree, RTreeNode, RTreeObject};
 
-use super::Point2;
+use super::{Point2, TreePoint, tree_point};
 
 /// The rounding error (m) by which a box may seem farther away than its content.
 const SLACK: f64 = 1e-12;
@@ -13,7 +13,7 @@ const SLACK: f64 = 1e-12;
 /// The search first descends to the nearest box, then visits only boxes that are nearer than the current minimum. The
 /// tree's own iterator keeps a list of visited nodes. It also returns the nearest object, and takes several times as
 /// long.
-pub fn min_distance<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
+pub fn min_distance<T: RTreeObject<Envelope = AABB<TreePoint>>>(
     tree: &RTree<T>,
     point: Point2,
     within: f64,
@@ -24,20 +24,20 @@ pub fn min_distance<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
 
 /// The same for a caller that needs no distance below `enough` (m). The result is exact above it. Below it, the result is
 /// any distance of an object that is at most `enough`.
-pub fn min_distance_down_to<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(
+pub fn min_distance_down_to<T: RTreeObject<Envelope = AABB<TreePoint>>>(
     enough: f64,
     tree: &RTree<T>,
     point: Point2,
     within: f64,
     distance: impl Fn(&T) -> f64,
 ) -> f64 {
-    let mut search = Search { point: point.into(), least: within, enough, distance };
+    let mut search = Search { point: tree_point(point), least: within, enough, distance };
     search.descend(tree.root());
     search.least
 }
 
 struct Search<D> {
-    point: [f64; 2],
+    point: TreePoint,
     least: f64,
     enough: f64,
     distance: D,
@@ -48,7 +48,7 @@ impl<D> Search<D> {
         apart <= (self.least + SLACK) * (self.least + SLACK)
     }
 
-    fn descend<T: RTreeObject<Envelope = AABB<[f64; 2]>>>(&mut self, node: &ParentNode<T>)
+    fn descend<T: RTreeObject<Envelope = AABB<TreePoint>>>(&mut self, node: &ParentNode<T>)
     where
         D: Fn(&T) -> f64,
     {

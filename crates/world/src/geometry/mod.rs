@@ -27,6 +27,7 @@ mod shapes;
 mod simple;
 mod strip;
 mod texture;
+mod tree_point;
 mod union;
 
 pub use arc::Arc;
@@ -52,5 +53,6 @@ pub use shapes::{
 };
 pub use strip::{Side, Strip, StripError};
 pub use texture::{Texture, TextureError, TextureKind};
+pub use tree_point::{TreePoint, plane_point, tree_point};
 pub use union::{TOUCHING, UnionError, United, unite};
 pub use vibrissa_runtime::geometry::{Point2, Pose, Vector2, perpendicular, rotate, turn_between, unit, wrap};

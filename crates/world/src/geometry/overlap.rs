@@ -4,7 +4,7 @@ use rstar::AABB;
 
 use super::distance::Leaf;
 use super::simple::{grown, meeting};
-use super::{Contour, JOIN_TOLERANCE, Piece, Segment};
+use super::{Contour, JOIN_TOLERANCE, Piece, Segment, TreePoint};
 
 impl Contour {
     /// True if two contours cross or touch, or if one lies inside of the other.
@@ -52,7 +52,7 @@ impl Contour {
     }
 
     /// The pieces whose boxes intersect a box.
-    pub(super) fn near(&self, frame: AABB<[f64; 2]>) -> impl Iterator<Item = &Leaf> {
+    pub(super) fn near(&self, frame: AABB<TreePoint>) -> impl Iterator<Item = &Leaf> {
         self.tree.locate_in_envelope_intersecting(frame)
     }
 }

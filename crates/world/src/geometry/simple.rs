@@ -3,7 +3,7 @@
 use rstar::{AABB, RTree};
 
 use super::distance::Leaf;
-use super::{Arc, BoundingBox, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, perpendicular};
+use super::{Arc, BoundingBox, ContourError, JOIN_TOLERANCE, Piece, Point2, Segment, TreePoint, perpendicular};
 
 /// The largest number of pairs of pieces with overlapping boxes, which take a second or two. Only many long diagonal
 /// pieces reach it.
@@ -33,8 +33,8 @@ pub(super) fn check(pieces: &[Piece], closed: bool, tree: &RTree<Leaf>) -> Resul
 }
 
 /// Enlarges a box by a `margin` (m).
-pub(super) fn grown(bounds: &BoundingBox, margin: f64) -> AABB<[f64; 2]> {
-    AABB::from_corners([bounds.min.x - margin, bounds.min.y - margin], [bounds.max.x + margin, bounds.max.y + margin])
+pub(super) fn grown(bounds: &BoundingBox, margin: f64) -> AABB<TreePoint> {
+    AABB::from_corners((bounds.min.x - margin, bounds.min.y - margin), (bounds.max.x + margin, bounds.max.y + margin))
 }
 
 /// The vertices that two pieces of a chain share.

@@ -33,14 +33,18 @@ pub struct Texture {
     pub seed: u64,
 }
 
-/// The kinds of textures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TextureKind {
-    /// One sine: equal ridges at equal distances.
-    Ridges,
-    /// The sum of up to 24 sines of equal amplitude. Their phases are random, and so are their wavelengths, from the
-    /// shortest one to its fourfold. The height has nearly a normal distribution.
-    Random,
+vibrissa_runtime::kinds! {
+    /// The kinds of textures.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum TextureKind,
+    /// The name in scenarios.
+    fn name {
+        /// One sine: equal ridges at equal distances.
+        Ridges = "ridges",
+        /// The sum of up to 24 sines of equal amplitude. Their phases are random, and so are their wavelengths, from the
+        /// shortest one to its fourfold. The height has nearly a normal distribution.
+        Random = "random",
+    }
 }
 
 /// The reason why an outline cannot have a texture.
@@ -62,20 +66,6 @@ pub enum TextureError {
     /// Rough sides meet.
     #[error("with the texture, {0}")]
     Contour(#[from] ContourError),
-}
-
-impl TextureKind {
-    /// All kinds.
-    pub const ALL: [Self; 2] = [Self::Ridges, Self::Random];
-
-    /// The name in scenarios.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ridges => "ridges",
-            Self::Random => "random",
-        }
-    }
 }
 
 impl Texture {

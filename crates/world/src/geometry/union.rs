@@ -5,7 +5,7 @@ use rstar::{AABB, RTree};
 
 use super::arrangement::{Arrangement, Loop, Near, outline};
 use super::simple::{MAX_PAIRS, grown};
-use super::{Contour, ContourError, Point2};
+use super::{Contour, ContourError, Point2, TreePoint};
 
 /// Outlines within this distance (m) touch.
 pub const TOUCHING: f64 = 1e-6;
@@ -107,8 +107,9 @@ pub fn unite(outlines: &[Contour]) -> Result<Vec<United>, UnionError> {
 
 /// The indices of outlines in groups of those that meet directly or through others, in order.
 fn groups(outlines: &[Contour]) -> Result<Vec<Vec<usize>>, UnionError> {
-    let frames: Vec<AABB<[f64; 2]>> = outlines.iter().map(|outline| grown(&outline.bounding_box(), TOUCHING)).collect();
-    let boxed = |(index, frame): (usize, &AABB<[f64; 2]>)| {
+    let frames: Vec<AABB<TreePoint>> =
+        outlines.iter().map(|outline| grown(&outline.bounding_box(), TOUCHING)).collect();
+    let boxed = |(index, frame): (usize, &AABB<TreePoint>)| {
         GeomWithData::new(Rectangle::from_corners(frame.lower(), frame.upper()), index)
     };
     let tree = RTree::bulk_load(frames.iter().enumerate().map(boxed).collect());

@@ -2,23 +2,24 @@
 
 use std::path::Path;
 
-/// The format of an outline file.
-#[derive(Copy, Clone, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Scalable Vector Graphics.
-    Svg,
-    /// Drawing Exchange Format, as text.
-    Dxf,
-    /// A polygon: a line for each corner, with x and y.
-    Csv,
-    /// A triangle mesh, as text or binary, which is cut by a plane.
-    Stl,
+vibrissa_runtime::kinds! {
+    /// The format of an outline file.
+    #[derive(Copy, Clone, Debug, PartialEq, Eq)]
+    pub enum Format,
+    /// The extension of such files, without the point.
+    fn ending {
+        /// Scalable Vector Graphics.
+        Svg = "svg",
+        /// Drawing Exchange Format, as text.
+        Dxf = "dxf",
+        /// A polygon: a line for each corner, with x and y.
+        Csv = "csv",
+        /// A triangle mesh, as text or binary, which is cut by a plane.
+        Stl = "stl",
+    }
 }
 
 impl Format {
-    /// All formats.
-    pub const ALL: [Self; 4] = [Self::Svg, Self::Dxf, Self::Csv, Self::Stl];
-
     /// Returns the format for the extension of a file name.
     ///
     /// ```
@@ -30,16 +31,5 @@ impl Format {
     pub fn of(path: &str) -> Option<Self> {
         let ending = Path::new(path).extension()?.to_str()?;
         Self::ALL.into_iter().find(|format| format.ending().eq_ignore_ascii_case(ending))
-    }
-
-    /// The extension of such files, without the point.
-    #[must_use]
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Dxf => "dxf",
-            Self::Csv => "csv",
-            Self::Stl => "stl",
-        }
     }
 }

@@ -58,26 +58,17 @@ pub struct ReadOptions<'r> {
     pub holes: Holes,
 }
 
-/// What is done with an outline within another. Whiskers cannot reach it.
-#[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
-pub enum Holes {
-    /// It is an error, because it could also be an object.
-    #[default]
-    Refuse,
-    /// It is left out.
-    Ignore,
-}
-
-impl Holes {
-    /// All values.
-    pub(crate) const ALL: [Self; 2] = [Self::Refuse, Self::Ignore];
-
+vibrissa_runtime::kinds! {
+    /// What is done with an outline within another. Whiskers cannot reach it.
+    #[derive(Copy, Clone, Debug, Default, PartialEq, Eq)]
+    pub enum Holes,
     /// The name in scenarios.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Refuse => "refuse",
-            Self::Ignore => "ignore",
-        }
+    fn name {
+        /// It is an error, because it could also be an object.
+        #[default]
+        Refuse = "refuse",
+        /// It is left out.
+        Ignore = "ignore",
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rstar::{AABB, RTree, RTreeObject};
 
-use crate::geometry::{BoundingBox, Contour, Piece, Point2, Vector2, perpendicular, unit};
+use crate::geometry::{BoundingBox, Contour, Piece, Point2, TreePoint, Vector2, perpendicular, tree_point, unit};
 use crate::solid::Solid;
 
 /// The outlines of all solids as facets, with a spatial index.
@@ -157,7 +157,7 @@ impl Surfaces {
     pub(super) fn near(&self, bounds: BoundingBox, margin: f64) -> impl Iterator<Item = (usize, &Facet)> {
         let margin = Vector2::repeat(margin);
         let (min, max) = (bounds.min - margin, bounds.max + margin);
-        let wide = AABB::from_corners([min.x, min.y], [max.x, max.y]);
+        let wide = AABB::from_corners((min.x, min.y), (max.x, max.y));
         self.tree.locate_in_envelope_intersecting(wide).map(|leaf| (leaf.index, &self.facets[leaf.index]))
     }
 }
@@ -323,9 +323,9 @@ struct Leaf {
 }
 
 impl RTreeObject for Leaf {
-    type Envelope = AABB<[f64; 2]>;
+    type Envelope = AABB<TreePoint>;
 
     fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(self.bounds.min.into(), self.bounds.max.into())
+        AABB::from_corners(tree_point(self.bounds.min), tree_point(self.bounds.max))
     }
 }

@@ -18,7 +18,7 @@ use super::whisker::{EquilibriumError, QuasiStaticWhisker};
 pub enum QuasiStaticError {
     /// Whiskers cannot bend out of the plane.
     #[error(
-        "the quasi-static world is planar, and `physics.whiskers` is `spatial`; leave it out, or run in the world `mujoco`"
+        "the quasi-static simulator is planar, and `physics.whiskers` is `spatial`; leave it out, or use the simulator `mujoco`"
     )]
     Spatial,
     /// The rig overlaps or touches a solid at the start.

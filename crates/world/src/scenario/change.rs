@@ -166,7 +166,7 @@ pub fn read(
 }
 
 /// Writes a value on one line.
-fn flow(node: &Node) -> String {
+pub(super) fn flow(node: &Node) -> String {
     match node {
         Node::List(items) => {
             format!("[{}]", items.iter().map(|item| flow(&item.value)).collect::<Vec<_>>().join(", "))

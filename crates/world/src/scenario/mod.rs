@@ -6,6 +6,7 @@
 mod calibration;
 mod change;
 mod corner;
+mod drawn;
 mod expect;
 mod file;
 mod mismatch;
@@ -29,6 +30,7 @@ mod tunnel;
 
 pub use calibration::{write_calibration, write_robot_calibration};
 pub use change::{Change, quoted, read as read_changed};
+pub use drawn::{DrawnScenario, DrawnScene};
 pub use file::reference;
 pub use file::unreadable;
 pub use mismatch::read_mismatch;

@@ -23,6 +23,12 @@ pub(super) fn read(source: &Source, files: &mut Files<'_>) -> Result<Scene, Vec<
 pub(super) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option<Scene> {
     let hint = "write at least `name`, `objects`, `start` and `stop`; see scenarios/disk.yaml";
     let place = root_place(reader, tree, "scenario", hint)?;
+    if let Some(draw) = tree.entry("draw") {
+        let message = "this file describes a family of scenes";
+        let fault = Diagnostic::error(fault::UNKNOWN_KEY, message, draw.key.span, "draws values");
+        reader.report(fault.hint("`vibrissa families FILE` runs it, and `--print --trial 0` writes one scene"));
+        return None;
+    }
     let mut fields = Fields::of(reader, tree, "a scenario", place)?;
     let name = fields.required("name", "disk").and_then(|entry| name(reader, entry, "a scenario", NAME_HINT));
     let description = match fields.entry("description") {
@@ -53,7 +59,7 @@ pub(super) fn read_scene(reader: &mut Reader<'_>, tree: &Placed<Node>) -> Option
     };
     let world = match fields.entry("world") {
         Some(entry) => {
-            let index = reader.choice(&entry.value, "a world", &WorldKind::ALL.map(WorldKind::name));
+            let index = reader.choice(&entry.value, "a simulator", &WorldKind::ALL.map(WorldKind::name));
             index.and_then(|index| WorldKind::ALL.get(index)).copied().map(Some)
         }
         None => Some(None),

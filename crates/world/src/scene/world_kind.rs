@@ -2,28 +2,20 @@
 
 use std::fmt;
 
-/// The simulators for a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WorldKind {
-    /// MuJoCo. Requires the feature `sim`.
-    Mujoco,
-    /// The quasi-static simulator.
-    QuasiStatic,
+vibrissa_runtime::kinds! {
+    /// The simulators for a run.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum WorldKind,
+    /// The name in scenarios, results and arguments.
+    fn name {
+        /// MuJoCo. Requires the feature `sim`.
+        Mujoco = "mujoco",
+        /// The quasi-static simulator.
+        QuasiStatic = "quasistatic",
+    }
 }
 
 impl WorldKind {
-    /// All simulators.
-    pub const ALL: [Self; 2] = [Self::Mujoco, Self::QuasiStatic];
-
-    /// The name in scenarios, results and arguments.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Mujoco => "mujoco",
-            Self::QuasiStatic => "quasistatic",
-        }
-    }
-
     /// A line about the simulator, for help.
     #[must_use]
     pub fn about(self) -> &'static str {

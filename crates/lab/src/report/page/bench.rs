@@ -6,7 +6,7 @@ use super::changes::changes_section;
 use super::document::page;
 use super::run::{PageRun, RunFigures, address, overview, section};
 use super::table::{Judgement, PageCell, PageTable};
-use crate::report::tables::bench::{HEADINGS, NAMES, cells};
+use crate::report::tables::bench::{COLUMNS, NAMES};
 use crate::results::{Ending, Provenance};
 use crate::study::bench::{BenchRow, Verdict};
 use crate::study::compare::Changes;
@@ -49,7 +49,8 @@ pub fn bench_page(
 fn table(rows: &[BenchRow]) -> PageTable {
     let row = |row: &BenchRow| {
         let failed = row.result.outcome != Ending::Completed;
-        let cells = cells(row).into_iter().enumerate().map(|(column, (text, verdict))| {
+        let cells = COLUMNS.iter().enumerate().map(|(column, (_, cell))| {
+            let (text, verdict) = cell(row);
             let judgement = match verdict {
                 Some(Verdict::Better) => Some(Judgement::Better),
                 Some(Verdict::Worse) => Some(Judgement::Worse),
@@ -60,6 +61,6 @@ fn table(rows: &[BenchRow]) -> PageTable {
         cells.collect()
     };
     let rows: Vec<Vec<PageCell>> = rows.iter().map(row).collect();
-    let headings = HEADINGS.map(str::to_owned).to_vec();
+    let headings = COLUMNS.map(|(heading, _)| heading.to_owned()).to_vec();
     PageTable { title: "bench".to_owned(), headings, names: NAMES, rows }.linked(|index| Some(address(index)))
 }

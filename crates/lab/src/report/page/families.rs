@@ -91,7 +91,7 @@ fn run_table<'p>(runs: &[FamilyRun], picture: impl Fn(usize) -> Option<&'p str>)
         let worse = |is_worse: bool| is_worse.then_some(Judgement::Worse);
         let figure = |metric, digits| text(result, metric, Cell::Decimals(digits)).unwrap_or_else(|| NONE.to_owned());
         let passed = if run.passed { "yes" } else { "no" };
-        let family = PageCell { link: picture(index).map(str::to_owned), ..PageCell::from(run.family.to_owned()) };
+        let family = PageCell { link: picture(index).map(str::to_owned), ..PageCell::from(run.family.clone()) };
         let passed = PageCell { judgement: worse(!run.passed), ..PageCell::from(passed.to_owned()) };
         let texts = [
             figure(Metric::ErrorMean, 3),

@@ -9,7 +9,7 @@ use super::run::place;
 use super::table::{Judgement, PageCell, PageTable};
 use crate::report::number::millimetres;
 use crate::report::picture::{Axis, Curve, curve_picture};
-use crate::report::table::{NONE, percent};
+use crate::report::table::{NONE, known, percent};
 use crate::report::tables::summary_table;
 use crate::results::{Ending, LargestError, Provenance, Rate, Tally};
 use crate::sweep::{RunRow, SweepCurve, SweepGroup, SweepPoint, SweepSummary};
@@ -247,19 +247,19 @@ struct Measure {
 const MEASURES: [Measure; 3] = [
     Measure {
         name: "passed",
-        text: |tally| tally.rates.map_or_else(|| NONE.to_owned(), |rates| percent(rates.passed.share, 0)),
+        text: |tally| known(tally.rates, |rates| percent(rates.passed.share, 0)),
         of: |tally| tally.rates.map(|rates| 1.0 - rates.passed.share),
         is_logarithmic: false,
     },
     Measure {
         name: "mean error (mm)",
-        text: |tally| tally.error_mean_mm.map_or_else(|| NONE.to_owned(), millimetres),
+        text: |tally| known(tally.error_mean_mm, millimetres),
         of: |tally| tally.error_mean_mm,
         is_logarithmic: true,
     },
     Measure {
         name: "95th percentile of the error (mm)",
-        text: |tally| tally.error_p95_mm.map_or_else(|| NONE.to_owned(), millimetres),
+        text: |tally| known(tally.error_p95_mm, millimetres),
         of: |tally| tally.error_p95_mm,
         is_logarithmic: true,
     },

@@ -1,4 +1,4 @@
-//! The scene from above: objects, estimate, platform.
+//! The scene from above: objects, estimate, platform. The map by touch is the layer in `touched.rs`.
 
 use std::f64::consts::PI;
 use std::iter;

@@ -1,6 +1,6 @@
 //! The bench as a table.
 
-use super::super::table::{NONE, Table, percent};
+use super::super::table::{NONE, Table, known, percent};
 use super::results::{corners, dead_whiskers, text};
 use crate::results::TipShares;
 use crate::study::bench::{BenchRow, Verdict};
@@ -9,38 +9,49 @@ use vibrissa_declare::figures::{Cell, Metric};
 /// The number of columns that name a run and its verdict.
 pub(in crate::report) const NAMES: usize = 4;
 
-/// The headings of the table's columns.
-pub(in crate::report) const HEADINGS: [&str; 23] = [
-    "scene",
-    "policy",
-    "outcome",
-    "against the baseline",
-    "error mm",
-    "baseline: error mm",
-    "outliers",
-    "coverage",
-    "retrieval mm",
-    "baseline: retrieval mm",
-    "axis mm",
-    "baseline: axis mm",
-    "collisions",
-    "seem dead",
-    "wall coverage",
-    "in 95 % interval",
-    "corners",
-    "corner position mm",
-    "corner time s",
-    "corner path m",
-    "path m",
-    "sim s",
-    "simulator",
+/// The text of a cell, with the verdict on its figure if the baseline reports it.
+type BenchCell = (String, Option<Verdict>);
+
+/// A column: its heading, and the cell of a row.
+type BenchColumn = (&'static str, fn(&BenchRow) -> BenchCell);
+
+/// The columns of the table.
+pub(in crate::report) const COLUMNS: [BenchColumn; 23] = [
+    ("scene", |row| plain(Some(row.scene()))),
+    ("policy", |row| plain(Some(row.result.policy_label()))),
+    ("outcome", |row| plain(Some(row.result.outcome.to_string()))),
+    ("against the baseline", |row| plain(against_baseline(row))),
+    ("error mm", |row| found(row, ERROR)),
+    ("baseline: error mm", |row| reported(row, ERROR)),
+    ("outliers", |row| decimals(row, Metric::Outliers, 2)),
+    ("coverage", |row| decimals(row, Metric::Coverage, 1)),
+    ("retrieval mm", |row| found(row, RETRIEVAL)),
+    ("baseline: retrieval mm", |row| reported(row, RETRIEVAL)),
+    ("axis mm", |row| found(row, AXIS)),
+    ("baseline: axis mm", |row| reported(row, AXIS)),
+    ("collisions", |row| decimals(row, Metric::Collisions, 0)),
+    ("seem dead", |row| plain(dead_whiskers(&row.result))),
+    ("wall coverage", |row| decimals(row, Metric::WallCoverage, 1)),
+    ("in 95 % interval", |row| decimals(row, Metric::IntervalCoverage, 1)),
+    ("corners", |row| plain(corners(&row.result))),
+    ("corner position mm", |row| decimals(row, Metric::CornerPlace, 3)),
+    ("corner time s", |row| decimals(row, Metric::CornerTime, 1)),
+    ("corner path m", |row| decimals(row, Metric::CornerPath, 2)),
+    ("path m", |row| decimals(row, Metric::Path, 2)),
+    ("sim s", |row| decimals(row, Metric::SimulatedTime, 1)),
+    ("simulator", |row| plain(Some(row.result.world.clone()))),
 ];
+/// The indices of the figures that the baseline reports.
+const ERROR: usize = 0;
+const RETRIEVAL: usize = 1;
+const AXIS: usize = 2;
 
 /// A table of the bench with a row for every run. A cell shows whether a figure is worse than the baseline's, which is
 /// in the next column.
 #[must_use]
 pub fn bench_table(rows: &[BenchRow]) -> Table {
-    Table::new(NAMES, HEADINGS, rows.iter().map(|row| cells(row).map(|(text, _)| text).to_vec()))
+    let cells = |row: &BenchRow| COLUMNS.map(|(_, cell)| cell(row).0).to_vec();
+    Table::new(NAMES, COLUMNS.map(|(heading, _)| heading), rows.iter().map(cells))
 }
 
 /// A line for every policy over all scenes: the number of recorded tips, the share of outliers, and the share within
@@ -57,7 +68,7 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
     let line = |policy: String| {
         let mine = rows.iter().map(|row| &row.result).filter(|result| result.policy_label() == policy);
         let tips: TipShares = mine.map(|result| TipShares::of_figures(|metric| result.figure(metric))).sum();
-        let share = |share: Option<f64>, digits| share.map_or_else(|| NONE.to_owned(), |share| percent(share, digits));
+        let share = |share, digits| known(share, |share| percent(share, digits));
         format!(
             "{policy}: {} tips, {} outliers, {} within their 95 % interval",
             tips.count,
@@ -68,45 +79,26 @@ pub fn pooled_tips(rows: &[BenchRow]) -> String {
     policies.into_iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The cells of a row, with the verdict on each figure that the baseline reports.
-pub(in crate::report) fn cells(row: &BenchRow) -> [(String, Option<Verdict>); 23] {
-    let result = &row.result;
-    let plain = |text: Option<String>| (text.unwrap_or_else(|| NONE.to_owned()), None);
-    let [error, radius, axis] = row.figures().map(|(found, reported, verdict)| {
-        let found = plain(text(result, found, Cell::Spread)).0;
-        let reported = reported.map(|reported| match reported.std {
-            Some(std) => format!("{} ± {}", reported.mean, std),
-            None => reported.mean.to_string(),
-        });
-        [(found, verdict), plain(reported)]
-    });
-    let [[error, baseline_error], [radius, baseline_radius], [axis, baseline_axis]] = [error, radius, axis];
-    let decimals = |metric, digits| plain(text(result, metric, Cell::Decimals(digits)));
-    [
-        plain(Some(row.scene())),
-        plain(Some(result.policy_label())),
-        plain(Some(result.outcome.to_string())),
-        plain(against_baseline(row)),
-        error,
-        baseline_error,
-        decimals(Metric::Outliers, 2),
-        decimals(Metric::Coverage, 1),
-        radius,
-        baseline_radius,
-        axis,
-        baseline_axis,
-        decimals(Metric::Collisions, 0),
-        plain(dead_whiskers(result)),
-        decimals(Metric::WallCoverage, 1),
-        decimals(Metric::IntervalCoverage, 1),
-        plain(corners(result)),
-        decimals(Metric::CornerPlace, 3),
-        decimals(Metric::CornerTime, 1),
-        decimals(Metric::CornerPath, 2),
-        decimals(Metric::Path, 2),
-        decimals(Metric::SimulatedTime, 1),
-        plain(Some(result.world.clone())),
-    ]
+fn plain(text: Option<String>) -> BenchCell {
+    (text.unwrap_or_else(|| NONE.to_owned()), None)
+}
+
+fn decimals(row: &BenchRow, metric: Metric, digits: usize) -> BenchCell {
+    plain(text(&row.result, metric, Cell::Decimals(digits)))
+}
+
+/// A figure that the baseline reports, with its verdict.
+fn found(row: &BenchRow, figure: usize) -> BenchCell {
+    let (metric, _, verdict) = row.figures()[figure];
+    (plain(text(&row.result, metric, Cell::Spread)).0, verdict)
+}
+
+/// The same figure of the baseline.
+fn reported(row: &BenchRow, figure: usize) -> BenchCell {
+    plain(row.figures()[figure].1.map(|reported| match reported.std {
+        Some(std) => format!("{} ± {std}", reported.mean),
+        None => reported.mean.to_string(),
+    }))
 }
 
 /// The comparison with the baseline: whether all its figures are better, or the names of those that are worse.

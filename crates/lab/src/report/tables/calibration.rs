@@ -9,56 +9,53 @@ use crate::calibration::{HeldOut, WhiskerTouches};
 /// A table of the errors of fits.
 #[must_use]
 pub fn held_out_table(rows: &[HeldOut]) -> Table {
-    let cells = rows.iter().map(|row| {
-        vec![
-            row.model.to_owned(),
-            row.sets.to_string(),
-            millimetres(row.rms_mm),
-            millimetres(row.max_mm),
-            row.range.clone(),
-        ]
-    });
-    Table::new(1, ["fit", "held-out sets", "rms mm", "max mm", "range"], cells)
+    Table::of(
+        1,
+        rows,
+        &[
+            ("fit", &|row| row.model.to_owned()),
+            ("held-out sets", &|row| row.sets.to_string()),
+            ("rms mm", &|row| millimetres(row.rms_mm)),
+            ("max mm", &|row| millimetres(row.max_mm)),
+            ("range", &|row| row.range.clone()),
+        ],
+    )
 }
 
 /// The table of the whiskers that an array has measured by its own touches, as differences from the rig.
 #[must_use]
 pub fn measured_table(rows: &[WhiskerTouches]) -> Table {
-    let cells = rows.iter().map(|row| {
-        let fit = row.fit.as_ref().ok();
-        let value = |parameter: Parameter, scale: f64| {
-            fit.map_or_else(String::new, |fit| {
+    let value = |row: &WhiskerTouches, parameter: Parameter, scale: f64| {
+        row.fit.as_ref().map_or_else(
+            |_| String::new(),
+            |fit| {
                 let index = parameter.index();
                 let deviation = fit.covariance[(index, index)].sqrt();
                 format!("{:+.2} ± {:.2}", scale * fit.parameters[index], scale * deviation)
-            })
-        };
-        vec![
-            row.whisker.clone(),
-            row.readings.len().to_string() + &row.time.map_or_else(String::new, |time| format!(" in {time:.0} s")),
-            value(Parameter::Stiffness, 100.0),
-            value(Parameter::Length, 1e3),
-            value(Parameter::Direction, 1.0_f64.to_degrees()),
-            value(Parameter::BaseX, 1e3),
-            value(Parameter::BaseY, 1e3),
-            value(Parameter::Curvature, 1.0),
-            value(Parameter::Taper, 100.0),
-            value(Parameter::Offset, 1e6),
-            fit.map_or_else(|| "refused".to_owned(), |_| millimetres(1e3 * row.tip_deviation)),
-        ]
-    });
-    let header = [
-        "whisker",
-        "touches",
-        "hinge %",
-        "length mm",
-        "direction deg",
-        "base x mm",
-        "base y mm",
-        "curvature 1/m",
-        "taper %",
-        "offset urad",
-        "tip deviation mm",
-    ];
-    Table::new(1, header, cells)
+            },
+        )
+    };
+    let touches = |row: &WhiskerTouches| {
+        row.readings.len().to_string() + &row.time.map_or_else(String::new, |time| format!(" in {time:.0} s"))
+    };
+    Table::of(
+        1,
+        rows,
+        &[
+            ("whisker", &|row| row.whisker.clone()),
+            ("touches", &touches),
+            ("hinge %", &|row| value(row, Parameter::Stiffness, 100.0)),
+            ("length mm", &|row| value(row, Parameter::Length, 1e3)),
+            ("direction deg", &|row| value(row, Parameter::Direction, 1.0_f64.to_degrees())),
+            ("base x mm", &|row| value(row, Parameter::BaseX, 1e3)),
+            ("base y mm", &|row| value(row, Parameter::BaseY, 1e3)),
+            ("curvature 1/m", &|row| value(row, Parameter::Curvature, 1.0)),
+            ("taper %", &|row| value(row, Parameter::Taper, 100.0)),
+            ("offset urad", &|row| value(row, Parameter::Offset, 1e6)),
+            ("tip deviation mm", &|row| match row.fit {
+                Ok(_) => millimetres(1e3 * row.tip_deviation),
+                Err(_) => "refused".to_owned(),
+            }),
+        ],
+    )
 }

@@ -3,11 +3,8 @@
 use std::borrow::Cow;
 
 use super::super::number::{RATES, rate, signed, significant};
-use super::super::table::{NONE, Table};
-use crate::study::compare::{Comparison, Difference, FigureComparison, Incomplete, Outlook};
-
-/// The headings of the figures. The interval of a difference is never left out for lack of space.
-const HEADINGS: [&str; 8] = ["figure", "difference", "95 % interval", "verdict", "mean", "first", "wins", "pairs"];
+use super::super::table::{Column, NONE, Table, known};
+use crate::study::compare::{Comparison, Difference, FigureComparison, Incomplete, Outlook, PolicyRuns};
 
 /// A comparison as tables: the rates of runs that completed and that were collision-free, and for each other policy its figures with their
 /// differences from the first policy.
@@ -21,35 +18,37 @@ pub fn comparison_tables(comparison: &Comparison) -> Vec<Table> {
 
 /// The rates of runs of each policy that completed and that were collision-free.
 pub(in crate::report) fn runs_table(comparison: &Comparison) -> Table {
-    let runs = comparison.policies.iter().map(|policy| {
-        vec![policy.policy.clone(), policy.runs.to_string(), rate(policy.completed), rate(policy.collision_free)]
-    });
-    Table::new(1, ["policy", "runs", "completed %", "collision-free %"], runs).under(RATES)
+    let columns: [Column<'_, PolicyRuns>; 4] = [
+        ("policy", &|runs| runs.policy.clone()),
+        ("runs", &|runs| runs.runs.to_string()),
+        ("completed %", &|runs| rate(runs.completed)),
+        ("collision-free %", &|runs| rate(runs.collision_free)),
+    ];
+    Table::of(1, &comparison.policies, &columns).under(RATES)
 }
 
-/// The figures of a policy with their differences from the first one.
+/// The figures of a policy with their differences from the first one. The interval of a difference is never left out for lack of
+/// space.
 pub(in crate::report) fn figures_table(comparison: &Comparison, policy: &str) -> Table {
-    let figures = comparison.figures.iter().filter(|figure| figure.policy == policy).map(|figure| {
-        let figure = &*in_percent(figure);
-        vec![
-            figure.figure.to_owned(),
-            signed(figure.difference.mean),
-            interval(figure),
-            match figure.outlook {
-                Outlook::Better => "better",
-                Outlook::Worse => "worse",
-                Outlook::Same => "the same",
-                Outlook::Open => "not distinguishable",
-            }
-            .to_owned(),
-            significant(figure.mean),
-            significant(figure.first),
-            format!("{} of {}", figure.wins, figure.wins + figure.losses),
-            figure.pairs.to_string(),
-        ]
-    });
+    let figures = comparison.figures.iter().filter(|figure| figure.policy == policy).map(in_percent);
+    let outlook = |figure: &FigureComparison| match figure.outlook {
+        Outlook::Better => "better",
+        Outlook::Worse => "worse",
+        Outlook::Same => "the same",
+        Outlook::Open => "not distinguishable",
+    };
+    let columns: [Column<'_, FigureComparison>; 8] = [
+        ("figure", &|figure| figure.figure.to_owned()),
+        ("difference", &|figure| signed(figure.difference.mean)),
+        ("95 % interval", &interval),
+        ("verdict", &|figure| outlook(figure).to_owned()),
+        ("mean", &|figure| significant(figure.mean)),
+        ("first", &|figure| significant(figure.first)),
+        ("wins", &|figure| format!("{} of {}", figure.wins, figure.wins + figure.losses)),
+        ("pairs", &|figure| figure.pairs.to_string()),
+    ];
     let first = comparison.policies.first().map_or(NONE, |first| &first.policy);
-    Table::new(1, HEADINGS, figures).under(format!(
+    Table::of(1, figures.collect::<Vec<_>>().iter().map(AsRef::as_ref), &columns).under(format!(
         "{policy} minus {first}: `completed %` over all runs, the rest over the runs in which both met the stop condition"
     ))
 }
@@ -86,5 +85,5 @@ pub(in crate::report) fn in_percent(figure: &FigureComparison) -> Cow<'_, Figure
 
 fn interval(figure: &FigureComparison) -> String {
     let interval = figure.difference.interval;
-    interval.map_or_else(|| NONE.to_owned(), |[low, high]| format!("{} .. {}", signed(low), signed(high)))
+    known(interval, |[low, high]| format!("{} .. {}", signed(low), signed(high)))
 }

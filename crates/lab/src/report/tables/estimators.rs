@@ -3,7 +3,7 @@
 use vibrissa_runtime::machine::ContactEstimatorKind;
 
 use super::super::number::millimetres;
-use super::super::table::{NONE, Table};
+use super::super::table::{NONE, Table, known};
 use crate::results::TipShares;
 use crate::study::estimators::EstimatorRow;
 
@@ -48,18 +48,17 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
             };
             let tips: TipShares =
                 mine.iter().map(|row| TipShares::of_run(row.tips as f64, row.outliers, row.within_band)).sum();
-            let shown = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or(NONE.to_owned(), text);
             let percent = |share: f64| format!("{:.1} %", 100.0 * share);
             vec![
                 estimator.to_owned(),
                 noise(bits),
-                shown(mean(&|row| row.mean_mm), &millimetres),
-                shown(mean(&|row| row.p95_mm), &millimetres),
-                shown(tips.within_band_share(), &percent),
-                shown(tips.outlier_share(), &|share| format!("{:.2} %", 100.0 * share)),
-                shown(mean(&|row| Some(row.reported)), &percent),
-                shown(mean(&|row| Some(row.on_shaft)), &percent),
-                shown(mean(&|row| Some(row.tick_us)), &|time| format!("{time:.1}")),
+                known(mean(&|row| row.mean_mm), millimetres),
+                known(mean(&|row| row.p95_mm), millimetres),
+                known(tips.within_band_share(), percent),
+                known(tips.outlier_share(), |share| format!("{:.2} %", 100.0 * share)),
+                known(mean(&|row| Some(row.reported)), percent),
+                known(mean(&|row| Some(row.on_shaft)), percent),
+                known(mean(&|row| Some(row.tick_us)), |time| format!("{time:.1}")),
             ]
         },
     );
@@ -80,5 +79,5 @@ pub fn estimators_tables(rows: &[EstimatorRow]) -> [Table; 2] {
 }
 
 fn cell(row: &EstimatorRow) -> String {
-    row.mean_mm.map_or_else(|| NONE.to_owned(), millimetres)
+    known(row.mean_mm, millimetres)
 }

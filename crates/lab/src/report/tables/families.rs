@@ -9,11 +9,11 @@ use crate::family::FamilyTally;
 /// the tips of all runs.
 #[must_use]
 pub fn families_table(tallies: &[FamilyTally]) -> Table {
-    let headings = ["family", "cm/s"].into_iter().chain(tally::HEADINGS);
+    let headings = ["family", "cm/s"].into_iter().chain(tally::COLUMNS.map(|(heading, _)| heading));
     Table::new(2, headings, tallies.iter().map(cells)).under(RATES)
 }
 
 fn cells(FamilyTally { family, speed, tally }: &FamilyTally) -> Vec<String> {
     let speed = speed.map_or_else(|| "all".to_owned(), |speed| format!("{:.0}", 100.0 * speed));
-    [(*family).to_owned(), speed].into_iter().chain(tally::cells(tally)).collect()
+    [(*family).clone(), speed].into_iter().chain(tally::COLUMNS.map(|(_, text)| text(tally))).collect()
 }

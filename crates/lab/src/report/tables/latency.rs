@@ -7,30 +7,20 @@ use crate::study::latency::LatencyRow;
 /// share of the control period. The last column includes interruptions by other programs.
 #[must_use]
 pub fn latency_table(rows: &[LatencyRow]) -> Table {
-    let headings = [
-        "scene",
-        "policy",
-        "phase",
-        "ticks",
-        "median µs",
-        "p99 µs",
-        "worst µs",
-        "worst, % of period",
-        "interrupted µs",
-    ];
     let microseconds = |time: f64| format!("{:.1}", 1e6 * time);
-    let cells = |row: &LatencyRow| {
-        vec![
-            row.scenario.clone(),
-            row.policy.clone(),
-            row.phase.clone(),
-            row.ticks.to_string(),
-            microseconds(row.median),
-            microseconds(row.p99),
-            microseconds(row.worst),
-            format!("{:.3}", 100.0 * row.share),
-            microseconds(row.longest),
-        ]
-    };
-    Table::new(3, headings, rows.iter().map(cells))
+    Table::of(
+        3,
+        rows,
+        &[
+            ("scene", &|row| row.scenario.clone()),
+            ("policy", &|row| row.policy.clone()),
+            ("phase", &|row| row.phase.clone()),
+            ("ticks", &|row| row.ticks.to_string()),
+            ("median µs", &|row| microseconds(row.median)),
+            ("p99 µs", &|row| microseconds(row.p99)),
+            ("worst µs", &|row| microseconds(row.worst)),
+            ("worst, % of period", &|row| format!("{:.3}", 100.0 * row.share)),
+            ("interrupted µs", &|row| microseconds(row.longest)),
+        ],
+    )
 }

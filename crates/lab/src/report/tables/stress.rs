@@ -1,6 +1,6 @@
 //! Stress tests as tables.
 
-use super::super::table::{NONE, Table};
+use super::super::table::{Table, known};
 use crate::study::stress::StressRow;
 
 /// Two tables: the outcome of every case, and the largest stable step of every setting.
@@ -20,13 +20,13 @@ pub fn stress_tables(rows: &[StressRow]) -> [Table; 2] {
     });
     let steps = rows.iter().filter_map(|row| match row {
         StressRow::Step { name, world, largest_ms, .. } => {
-            let largest = largest_ms.map_or_else(|| NONE.to_owned(), |step| format!("{step:.2}"));
+            let largest = known(*largest_ms, |step| format!("{step:.2}"));
             Some(vec![name.clone(), world.clone(), largest])
         }
         StressRow::Case { .. } => None,
     });
     [
-        Table::new(7, ["case", "world", "driven", "outcome", "numbers", "sim s", "reason"], cases),
-        Table::new(2, ["setting", "world", "largest stable step ms"], steps),
+        Table::new(7, ["case", "simulator", "driven", "outcome", "numbers", "sim s", "reason"], cases),
+        Table::new(2, ["setting", "simulator", "largest stable step ms"], steps),
     ]
 }

@@ -20,10 +20,14 @@ pub fn summary_table(groups: &[SweepGroup]) -> Table {
     let columns: Vec<CountColumn> =
         columns.filter(|(_, count)| groups.iter().any(|group| count(&group.tally) > 0)).collect();
     let headings = std::iter::once("scenes").chain(settings.iter().copied()).chain(["policy"]);
-    let headings = headings.chain(tally::HEADINGS).chain(columns.iter().map(|(heading, _)| *heading));
+    let headings =
+        headings.chain(tally::COLUMNS.map(|(heading, _)| heading)).chain(columns.iter().map(|(heading, _)| *heading));
     let cells = |SweepGroup { scenes, settings, policy, tally }: &SweepGroup| {
         let names = std::iter::once(scenes.clone()).chain(settings.values().cloned()).chain([policy.clone()]);
-        names.chain(tally::cells(tally)).chain(columns.iter().map(|(_, count)| count(tally).to_string())).collect()
+        names
+            .chain(tally::COLUMNS.map(|(_, text)| text(tally)))
+            .chain(columns.iter().map(|(_, count)| count(tally).to_string()))
+            .collect()
     };
     Table::new(2 + settings.len(), headings, groups.iter().map(cells)).under(RATES)
 }

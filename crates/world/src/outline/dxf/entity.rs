@@ -12,39 +12,9 @@ use super::{polyline, spline};
 
 /// Entities that are not outlines: texts, dimensions, hatches, points, images, views, construction aids, and the end of
 /// a polyline's vertex list.
-const ANNOTATIONS: [&str; 31] = [
-    "TEXT",
-    "MTEXT",
-    "RTEXT",
-    "ARCALIGNEDTEXT",
-    "ATTRIB",
-    "ATTDEF",
-    "ACAD_TABLE",
-    "DIMENSION",
-    "ARC_DIMENSION",
-    "LARGE_RADIAL_DIMENSION",
-    "LEADER",
-    "MLEADER",
-    "MULTILEADER",
-    "TOLERANCE",
-    "HATCH",
-    "POINT",
-    "IMAGE",
-    "WIPEOUT",
-    "OLEFRAME",
-    "OLE2FRAME",
-    "PDFUNDERLAY",
-    "DWFUNDERLAY",
-    "DGNUNDERLAY",
-    "UNDERLAY",
-    "VIEWPORT",
-    "XLINE",
-    "RAY",
-    "LIGHT",
-    "SUN",
-    "CAMERA",
-    "SEQEND",
-];
+const ANNOTATIONS: &str = "TEXT MTEXT RTEXT ARCALIGNEDTEXT ATTRIB ATTDEF ACAD_TABLE DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION \
+    LEADER MLEADER MULTILEADER TOLERANCE HATCH POINT IMAGE WIPEOUT OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY \
+    DGNUNDERLAY UNDERLAY VIEWPORT XLINE RAY LIGHT SUN CAMERA SEQEND";
 
 /// The geometry of an entity.
 pub(super) enum EntityGeometry {
@@ -57,7 +27,7 @@ pub(super) enum EntityGeometry {
 
 /// True if entities of a kind are not outlines.
 pub(super) fn is_annotation(kind: &str) -> bool {
-    ANNOTATIONS.contains(&kind)
+    ANNOTATIONS.split(' ').any(|annotation| annotation == kind)
 }
 
 pub(super) fn geometry(entity: &Record<'_>, transform: &Transform) -> Result<EntityGeometry, OutlineError> {

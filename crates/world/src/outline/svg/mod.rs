@@ -49,7 +49,8 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Vec<Outlin
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
     // Of two elements with one id, the first counts.
     let named: HashMap<_, _> = ids.rev().collect();
-    let mut walk = Walk { named, source, styles, outlines: OutlineList::default(), unseen: 0, steps: 0 };
+    let mut walk =
+        Walk { named, source, styles, outlines: OutlineList::default(), unseen: 0, steps: 0, used: Vec::new() };
     let Some(element) = options.element else {
         walk.read_visible(root, &transform, 0, Look::initial())?;
         return walk.outlines.into_visible(walk.unseen);

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use vibrissa_text::diagnostic::Source;
 
@@ -34,6 +34,8 @@ pub(super) struct Walk<'d> {
     /// The number of shapes and groups that cannot be seen.
     pub(super) unseen: usize,
     pub(super) steps: usize,
+    /// The elements that `use` is drawing, from the outermost.
+    pub(super) used: Vec<NodeId>,
 }
 
 impl<'d> Walk<'d> {
@@ -150,18 +152,25 @@ impl<'d> Walk<'d> {
             let reason = format!("`use` refers to `{}`, which is not there", link.chars().take(40).collect::<String>());
             return Err(self.at(node, OutlineFault::Syntax { reason }));
         };
+        if self.used.contains(&found.id()) {
+            let reason = format!("`use` of `{link}` draws itself");
+            return Err(self.at(node, OutlineFault::Syntax { reason }));
+        }
+        self.used.push(found.id());
         let transform = self.inner_transform(node, transform)?;
         let offset = length_or_zero(node, "x").and_then(|x| Ok([x, length_or_zero(node, "y")?]));
         let offset = offset.map_err(|fault| self.at(node, fault))?;
         let transform = transform.inner([1.0, 0.0], [0.0, 1.0], offset);
-        if !is(found, "symbol") {
-            return self.read_visible(found, &transform, depth + 1, look);
+        if is(found, "symbol") {
+            self.count_step(found, depth + 1)?;
+            if !is_transparent(found, &self.styles) {
+                self.draw(found, &transform, depth + 1, look.inner(found, &self.named, &self.styles))?;
+            }
+        } else {
+            self.read_visible(found, &transform, depth + 1, look)?;
         }
-        self.count_step(found, depth + 1)?;
-        if is_transparent(found, &self.styles) {
-            return Ok(());
-        }
-        self.draw(found, &transform, depth + 1, look.inner(found, &self.named, &self.styles))
+        self.used.pop();
+        Ok(())
     }
 
     /// The transform within an element.

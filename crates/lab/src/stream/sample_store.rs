@@ -11,7 +11,7 @@ const TOUCHES: u8 = 8;
 
 /// The samples of a run, tick by tick. A [`Sample`] has the size of the largest rig, and this has only what the rig measures.
 #[derive(Debug, Default)]
-pub(super) struct SampleStore {
+pub struct SampleStore {
     /// Number of whiskers of the rig.
     whiskers: usize,
     /// Time, position and heading of each sample, then the values of its readings.
@@ -24,12 +24,13 @@ pub(super) struct SampleStore {
 
 impl SampleStore {
     /// An empty store for a rig with this number of whiskers.
-    pub(super) fn new(whiskers: usize) -> Self {
+    #[must_use]
+    pub fn new(whiskers: usize) -> Self {
         Self { whiskers: whiskers.min(MAX_WHISKERS), ..Self::default() }
     }
 
     /// Adds the samples of the next tick.
-    pub(super) fn push(&mut self, samples: &[Sample]) {
+    pub fn push(&mut self, samples: &[Sample]) {
         for sample in samples {
             self.values.extend([sample.time, sample.body.position.x, sample.body.position.y, sample.body.heading]);
             for reading in sample.whiskers.iter().take(self.whiskers) {
@@ -51,12 +52,14 @@ impl SampleStore {
     }
 
     /// The number of ticks.
-    pub(super) fn ticks(&self) -> usize {
+    #[must_use]
+    pub fn ticks(&self) -> usize {
         self.ends.len()
     }
 
     /// The samples of a tick, with the bits that they had. None for a tick that the store does not have.
-    pub(super) fn get(&self, tick: usize) -> Vec<Sample> {
+    #[must_use]
+    pub fn get(&self, tick: usize) -> Vec<Sample> {
         let Some(&end) = self.ends.get(tick) else { return Vec::new() };
         let start = tick.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or_default();
         let mut values = self.values.get(start.0..end.0).unwrap_or_default().iter().copied();
