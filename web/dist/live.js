@@ -1744,6 +1744,10 @@
     px([x, y]) {
       return [this.#shift[0] + (x - this.#low[0]) * this.#scale, this.#shift[1] - (y - this.#low[1]) * this.#scale];
     }
+    /** The point at a position (px). */
+    point([x, y]) {
+      return [this.#low[0] + (x - this.#shift[0]) / this.#scale, this.#low[1] + (this.#shift[1] - y) / this.#scale];
+    }
     /** The path of a line through points. */
     line(points, isClosed = false) {
       return points.map((point, index) => `${index === 0 ? "M" : "L"}${text(this.px(point))}`).join("") + (isClosed ? "Z" : "");

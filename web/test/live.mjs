@@ -28,7 +28,7 @@ async function expectTick(page, tick) {
   await page.waitForFunction((tick) => document.querySelector(".time").textContent.endsWith(`tick ${tick}`), tick);
 }
 
-const run = ["run", "scenarios/disk.yaml", "--policy", "policies/thesis.fsm", "--world", "quasistatic", "--paused", "--break", "Swiping", "--live"];
+const run = ["run", "scenarios/disk.yaml", "--policy", "policies/thesis.fsm", "--simulator", "quasistatic", "--paused", "--break", "Swiping", "--live"];
 
 for (const colorScheme of ["light", "dark"]) {
   for (const width of [400, 1600]) {
@@ -152,7 +152,7 @@ state Go {
   after 15 s -> Success("done")
 }
 `);
-await serve(["run", "scenarios/disk.yaml", "--policy", policy, "--world", "quasistatic", "--paused", "--live-speed", "max", "--live"], (address) =>
+await serve(["run", "scenarios/disk.yaml", "--policy", policy, "--simulator", "quasistatic", "--paused", "--live-speed", "max", "--live"], (address) =>
   open(address, "dark", 1600, async (page) => {
     await expectStatus(page, /paused at the start/);
     await page.waitForFunction(() => {
@@ -195,7 +195,7 @@ await serve(["run", "scenarios/disk.yaml", "--policy", policy, "--world", "quasi
 
 // A finished recording can be changed from its first tick on.
 const recording = join(scratch, "disk.mcap");
-const recorder = spawn(program, ["run", "scenarios/disk.yaml", "--policy", "policies/thesis.fsm", "--world", "quasistatic", "--record", recording], { cwd: root, stdio: "ignore" });
+const recorder = spawn(program, ["run", "scenarios/disk.yaml", "--policy", "policies/thesis.fsm", "--simulator", "quasistatic", "--record", recording], { cwd: root, stdio: "ignore" });
 await once(recorder, "exit");
 await serve(["replay", recording, "--live-speed", "max", "--live"], (address) =>
   open(address, "light", 1600, async (page) => {

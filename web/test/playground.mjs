@@ -1,10 +1,15 @@
 // Uses the playground in Chromium: `node playground.mjs PROGRAM FOLDER`. The program serves the folder that `cargo x playground` has built.
 import assert from "node:assert/strict";
+import { readdirSync } from "node:fs";
 import { readFile } from "node:fs/promises";
+import { join } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import { browser, checkFit, open, serve, tabTo } from "./browser.mjs";
 
 const [program, folder] = process.argv.slice(2);
+
+/** The choices of the bar. */
+const [SCENE, SPEED] = [".scenes select", ".choices > label:last-child select"];
 
 /** The first lines of an editor. */
 const text = (page, name) => page.$$eval(`.cm-content[aria-label="${name}"] .cm-line`, (lines) => lines.slice(0, 20).map((line) => line.textContent).join("\n"));
@@ -86,7 +91,7 @@ await serve(program, ["playground", folder], async (address) => {
     for (let step = 1; step <= 5; step += 1) {
       await page.click(`.lessons .head button:nth-child(${step})`);
       await page.click(".lessons >> text=solution");
-      await page.selectOption("select >> nth=2", "3");
+      await page.selectOption(SPEED, "3");
       await page.waitForFunction(() => document.querySelector(".lesson-verdict")?.textContent === "Done.");
     }
 
@@ -98,11 +103,117 @@ await serve(program, ["playground", folder], async (address) => {
 
     // A policy whose run would take for ever in a scene is stopped.
     await write(page, still("").policy);
-    await page.selectOption("select >> nth=2", "0");
+    await page.selectOption(SPEED, "0");
     await page.click("text=run");
     await page.waitForFunction(() => document.querySelector(".status").dataset.state === "running");
     await page.click("text=stop");
     await page.waitForFunction(() => document.querySelector(".status").textContent.includes("stopped"));
+  });
+
+  // Scenes of the zoo and of families, each of which runs.
+  await open(address, "light", 1600, async (page) => {
+    await expectVerdict(page, /^completed/);
+    await page.selectOption(SPEED, "3");
+    const titled = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector("h1").textContent), pattern.source);
+    for (const [scene, title] of [["zoo/star5", /^star5/], ["family rooms", /^rooms-0/], ["family shapes", /^shapes-0/]]) {
+      await page.selectOption(SCENE, scene);
+      await titled(title);
+      await page.waitForFunction(() => document.querySelectorAll(".scene .whisker").length > 0 && Number(document.querySelector(".slider").max) > 10);
+      assert.equal(await page.textContent("pre.fault"), "");
+    }
+    await page.click(".scenes button");
+    await titled(/^shapes-1/);
+    assert.equal(await page.inputValue(SCENE), "family shapes");
+  });
+
+  // Shapes by mouse and by keyboard, at both widths.
+  for (const width of [400, 1600]) {
+    await open(address, "light", width, async (page) => {
+      await expectVerdict(page, /^completed/);
+      await write(page, still("").policy);
+      await page.click(".shapes > summary");
+      const handles = page.locator(".shapes .handle");
+      const expectCount = (count) => page.waitForFunction((count) => document.querySelectorAll(".shapes .handle").length === count, count);
+      const place = (index) => handles.nth(index).getAttribute("aria-label");
+      await expectCount(2);
+      const before = await place(0);
+      await handles.nth(0).focus();
+      await page.keyboard.press("ArrowUp");
+      await page.waitForFunction((before) => document.querySelector(".shapes .handle").getAttribute("aria-label") !== before, before);
+      assert.equal(await place(0), "place of object 1, circle: 400 mm, 410 mm");
+      assert.ok(await handles.nth(0).evaluate((handle) => handle === document.activeElement), "the handle keeps the focus");
+      // By mouse: the disk smaller, then another one, and a polygon.
+      const centre = async (index) => {
+        await page.locator(".shapes svg").scrollIntoViewIfNeeded();
+        const { x, y, width, height } = await handles.nth(index).boundingBox();
+        return [x + width / 2, y + height / 2];
+      };
+      const drag = async ([x, y], [right, down]) => {
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        await page.mouse.move(x + right, y + down, { steps: 4 });
+        await page.mouse.up();
+      };
+      const radius = await place(1);
+      await drag(await centre(1), [-30, 0]);
+      await page.waitForFunction((radius) => document.querySelectorAll(".shapes .handle")[1].getAttribute("aria-label") !== radius, radius);
+      await page.click(".shapes >> text=add disk");
+      // The last handle is the rim of the first disk.
+      const beside = async (right, down) => {
+        const [x, y] = await centre((await handles.count()) - 1);
+        return [x + right, y + down];
+      };
+      await drag(await beside(20, -70), [10, 0]);
+      await expectCount(4);
+      await page.click(".shapes >> text=add polygon");
+      const [x, y] = await beside(0, 70);
+      for (const [right, down] of [[0, 0], [20, 0], [20, 20]]) {
+        await page.mouse.click(x + right, y + down);
+      }
+      await page.focus(".shapes svg");
+      await page.keyboard.press("Enter");
+      await expectCount(7);
+      assert.match(await place(0), /^corner 1 of object 1, polygon/);
+      await handles.nth(0).focus();
+      await page.keyboard.press("Delete");
+      await expectCount(4);
+      assert.equal(await page.inputValue(SCENE), "own");
+      const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(overflow <= 0, `shapes are ${overflow} px too wide at ${width} px`);
+    });
+  }
+
+  // The book's listings open in the playground, and each is a policy. Some are for a rig with other whiskers, which the page says.
+  const docs = join(import.meta.dirname, "../../docs");
+  const pages = ["", "howto/"].flatMap((folder) => readdirSync(join(docs, folder)).filter((name) => name.endsWith(".md")).map((name) => folder + name));
+  const texts = await Promise.all(pages.map((name) => readFile(join(docs, name), "utf8")));
+  const listings = texts.flatMap((text) => [...text.matchAll(/^```fsm\n(.*?)^```/gms)].map(([, listing]) => listing));
+  assert.ok(listings.length > 20);
+  let links = [];
+  await open("about:blank", "light", 1600, async (page) => {
+    await page.route("**/book.html", (route) => route.fulfill({ contentType: "text/html", body: "<link rel=icon href=data:,><script>const path_to_root = ''</script>" }));
+    await page.route("**/playground/index.html", (route) => route.fulfill({ contentType: "text/html", body: "" }));
+    await page.goto(`${address}book.html`);
+    await page.evaluate((listings) => {
+      for (const listing of listings) {
+        const code = Object.assign(document.createElement("code"), { className: "language-fsm", textContent: listing });
+        document.body.append(document.createElement("pre"));
+        document.body.lastElementChild.append(code);
+      }
+    }, listings);
+    await page.addScriptTag({ content: await readFile(join(docs, "try-it.js"), "utf8") });
+    await page.waitForSelector(".try-it");
+    links = await page.$$eval(".try-it", (links) => links.map((link) => link.href));
+  });
+  assert.equal(links.length, listings.length);
+  await open(address, "light", 1600, async (page) => {
+    for (const [index, link] of links.entries()) {
+      await page.goto("about:blank");
+      await page.goto(address + new URL(link).hash);
+      await page.waitForFunction(() => (document.querySelector("pre.fault")?.textContent ?? "") !== "" || document.querySelector(".status")?.dataset.state === "running" || document.querySelector(".verdict")?.textContent);
+      assert.match(await page.textContent("pre.fault"), /^$|^the rig has no whisker/, listings[index]);
+    }
+    console.log(`${links.length} listings of the book`);
   });
 
   // A link holds everything.
@@ -132,9 +243,9 @@ await serve(program, ["playground", folder], async (address) => {
     const links = [];
     for (const bad of markup) {
       links.push(fragment({ ...good, policy: bad }), fragment({ ...good, scenario: bad }), fragment({ ...good, policy: `machine m # ${bad}\ninitial A state A { stop log "${bad}" }` }));
-      links.push(fragment({ ...good, scenario: `name: "${bad}"\n` }), fragment({ ...good, set: { [bad]: 1 } }), `#1${bad}`, `#${bad}`);
+      links.push(fragment({ ...good, scenario: `name: "${bad}"\n` }), fragment({ ...good, set: { [bad]: 1 } }), `#1${bad}`, `#${bad}`, `#policy=${encodeURIComponent(bad)}`);
     }
-    links.push("#1", "#1=", "#1AAAA", "#1%00", "#1\u{1f980}", `#1${"A".repeat(100_000)}`, fragment("null"), fragment("[]"), fragment("3"), fragment("{"), fragment(""), fragment("\"x\""));
+    links.push("#1", "#1=", "#1AAAA", "#1%00", "#1\u{1f980}", `#1${"A".repeat(100_000)}`, fragment("null"), "#policy=", "#policy=%", `#policy=${"%28".repeat(30_000)}`, fragment("[]"), fragment("3"), fragment("{"), fragment(""), fragment("\"x\""));
     links.push(fragment({}), fragment({ scenario: 1, policy: [] }), fragment({ ...good, set: null }), fragment({ ...good, set: { speed: 1e308, x: "1" } }), fragment("{\"scenario\":\"\",\"policy\":\"\",\"set\":{\"__proto__\":1,\"constructor\":2}}"));
     links.push(fragment(Buffer.alloc(1 << 26)), fragment(Buffer.from([0xff, 0xfe, 0x80])), fragment({ ...good, policy: "(".repeat(100_000) }), fragment({ ...good, policy: `machine m initial A ${"state A { ".repeat(2000)}` }));
     links.push(fragment({ ...good, scenario: "a: &a [x, x]\nb: [*a, *a, *a, *a]\n".repeat(50) }), fragment({ ...good, scenario: `${"[".repeat(50_000)}` }), fragment({ ...good, scenario: "objects:\n  - circle: {centre: [0 m, 0 m], radius: 1e300 m}\n" }));

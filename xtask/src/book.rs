@@ -7,6 +7,7 @@ use std::{fs, io};
 use thiserror::Error;
 
 use crate::links::{self, LinkError};
+use crate::playground;
 
 /// The release of mdBook that is installed where there is none.
 const VERSION: &str = "0.5.4";
@@ -49,7 +50,31 @@ pub(crate) fn build(root: &Path) -> Result<PathBuf, BookError> {
     let mut command = Command::new(&program);
     command.arg("build").arg(root.join("docs")).arg("--dest-dir").arg(&book);
     let status = command.status().map_err(|source| BookError::Disk { action: "run", path: program, source })?;
-    if status.success() { Ok(book.join("index.html")) } else { Err(BookError::Failed(status)) }
+    if !status.success() {
+        return Err(BookError::Failed(status));
+    }
+    add_playground(&playground::folder(root), &book.join("playground"))?;
+    Ok(book.join("index.html"))
+}
+
+/// Puts the playground beside the book, if it is built. Then the book links its listings to it.
+fn add_playground(built: &Path, copy: &Path) -> Result<(), BookError> {
+    let disk = |action, path: &Path| {
+        let path = path.to_path_buf();
+        move |source| BookError::Disk { action, path, source }
+    };
+    if !built.join(playground::MODULE).exists() {
+        println!("The listings have no links to the playground, which is not built (cargo x playground).");
+        return Ok(());
+    }
+    fs::create_dir_all(copy).map_err(disk("make", copy))?;
+    for entry in fs::read_dir(built).map_err(disk("read", built))? {
+        let file = entry.map_err(disk("read", built))?.path();
+        if let Some(name) = file.file_name() {
+            fs::copy(&file, copy.join(name)).map_err(disk("copy", &file))?;
+        }
+    }
+    Ok(())
 }
 
 /// The program: the user's own, or else one that is installed into the target directory once.

@@ -10,6 +10,8 @@ use crate::cargo::{NotStarted, cargo, target_directory};
 use crate::standard_library::is_installed;
 use crate::web::{self, WebError};
 
+/// The file of the module in the folder.
+pub(crate) const MODULE: &str = "vibrissa.wasm";
 /// The target.
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The profile. It has another name than the folder, because Cargo makes a folder for each profile.
@@ -70,7 +72,7 @@ pub(crate) fn build(root: &Path) -> Result<PathBuf, PlaygroundError> {
     let folder = folder(root);
     web::bundle_playground(root, &folder)?;
     let built = target_directory(root).join(TARGET).join(PROFILE).join("vibrissa_playground.wasm");
-    fs::copy(&built, folder.join("vibrissa.wasm")).map_err(|source| PlaygroundError::Copy { path: built, source })?;
+    fs::copy(&built, folder.join(MODULE)).map_err(|source| PlaygroundError::Copy { path: built, source })?;
     Ok(folder)
 }
 

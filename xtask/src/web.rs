@@ -7,6 +7,7 @@ use std::{env, fs, io};
 use thiserror::Error;
 
 use crate::cargo::target_directory;
+use crate::playground::{MODULE, folder};
 
 /// The names of the bundles: the script and the style sheet of each page.
 const BUNDLES: [&str; 4] = ["report.js", "report.css", "live.js", "live.css"];
@@ -69,14 +70,14 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     let program = target_directory(root).join("debug/vibrissa").with_extension(env::consts::EXE_EXTENSION);
     let program = program.to_string_lossy().into_owned();
     let [bench, sweep] = ["bench", "sweep"].map(|name| reports.join(name).to_string_lossy().into_owned());
-    run(root, &program, &["bench", "--world", "quasistatic", "--out", &bench])?;
+    run(root, &program, &["bench", "--simulator", "quasistatic", "--out", &bench])?;
     run(root, &program, &["sweep", "web/test/sweep.yaml", "--out", &sweep])?;
     let pages = [bench, sweep].map(|directory| format!("{directory}/index.html"));
     let web = root.join("web");
     run(&web, "node", &["test/pages.mjs", &pages[0], &pages[1]])?;
     run(&web, "node", &["test/live.mjs", &program])?;
-    let playground = target_directory(root).join("playground");
-    if !playground.join("vibrissa.wasm").exists() {
+    let playground = folder(root);
+    if !playground.join(MODULE).exists() {
         println!("      left out: the playground, which is not built (cargo x playground)");
         return Ok(());
     }

@@ -7,6 +7,7 @@ mod export;
 mod lessons;
 mod playground;
 mod request;
+mod shapes;
 mod simulation;
 
 pub use playground::Playground;

@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde_json::Value;
+use vibrissa_lab::stream::message::CounterfactualKind;
+
+use crate::shapes::Change;
 
 /// A request of the page.
 #[derive(Debug, Clone, Deserialize)]
@@ -25,6 +28,54 @@ pub(crate) enum Request {
         /// Other values (SI) of parameters and thresholds, by the names in the first message of the run before.
         #[serde(default)]
         set: BTreeMap<String, f64>,
+        /// The texts of the breakpoints, of which the run has those that its policy can have.
+        #[serde(default)]
+        breakpoints: Vec<String>,
+        /// True for a run beside the one that the page shows.
+        #[serde(default)]
+        beside: bool,
+    },
+    /// Replaces the breakpoints. The answer has those that the policy can have.
+    Break {
+        /// Their texts.
+        texts: Vec<String>,
+        /// The one of them that the policy must have.
+        new: Option<String>,
+    },
+    /// Begins a counterfactual. An earlier one is forgotten.
+    Counterfactual {
+        /// Its number.
+        id: u64,
+        /// The first tick with the change.
+        tick: usize,
+        /// The kind.
+        kind: CounterfactualKind,
+        /// The changed values (SI).
+        set: BTreeMap<String, f64>,
+    },
+    /// Executes ticks of the counterfactual. The answer is its next piece, or null until that is full.
+    Answer {
+        /// Their largest number.
+        ticks: usize,
+    },
+    /// Draws a scene of a family. The answer has the text of its scenario and the speed (m/s) of its run.
+    Draw {
+        /// The name of the family.
+        family: String,
+        /// The number of the scene.
+        number: u64,
+    },
+    /// The objects of a scenario.
+    Shapes {
+        /// The text of the scenario.
+        scenario: String,
+    },
+    /// Changes an object of a scenario. The answer has the new text.
+    Reshape {
+        /// The text of the scenario.
+        scenario: String,
+        /// The change.
+        change: Change,
     },
     /// Simulates ticks.
     Advance {
@@ -33,9 +84,16 @@ pub(crate) enum Request {
         /// False if nobody watches. Then the answer has no frames.
         #[serde(default = "yes")]
         frames: bool,
+        /// True for the run beside the one that the page shows.
+        #[serde(default)]
+        beside: bool,
     },
     /// Scores the run, which has ended.
-    Score,
+    Score {
+        /// True for the run beside the one that the page shows.
+        #[serde(default)]
+        beside: bool,
+    },
 }
 
 fn yes() -> bool {

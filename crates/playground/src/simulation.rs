@@ -11,8 +11,11 @@ use vibrissa_lab::report::picture;
 use vibrissa_lab::request::{Input, PolicyInput, TrialRequest};
 use vibrissa_lab::results::Document;
 use vibrissa_lab::run::{Ending, Step, SteppedRun, Trace, Watcher};
-use vibrissa_lab::stream::message::{Frame, Hello, Metrics, ServerMessage};
-use vibrissa_lab::stream::{Frames, GuardNumbers, RunSetup, Shadow, hello};
+use vibrissa_lab::stream::message::{BreakpointInfo, Frame, Metrics, Piece, ServerMessage};
+use vibrissa_lab::stream::{
+    Counterfactual, Frames, PastRun, Question, RunFacts, RunSetup, SampleStore, Shadow, TickResult, breakpoints,
+    breakpoints_with, hello,
+};
 use vibrissa_lab::trial::Trial;
 use vibrissa_runtime::machine::Observer;
 use vibrissa_runtime::signal::Sample;
@@ -20,7 +23,7 @@ use vibrissa_text::diagnostic::Source;
 use vibrissa_world::scene::WorldKind;
 use vibrissa_world::world::World;
 
-/// The longest run (s of simulated time). The frames of a longer one would fill the memory of a page.
+/// The longest run (s of simulated time). A longer one ends then, because its ticks would fill the memory of a page.
 const LONGEST: f64 = 3600.0;
 
 /// A run and its world.
@@ -30,16 +33,25 @@ pub(crate) struct Simulation {
     /// `None` after the end.
     run: Option<SteppedRun>,
     ending: Option<Ending>,
+    /// The text of the policy.
+    source: Option<Source>,
     watch: Watch,
+    counterfactual: Option<Counterfactual>,
 }
 
 /// Makes the frames of a run.
 struct Watch {
-    hello: Arc<Hello>,
-    numbers: GuardNumbers,
+    facts: RunFacts,
     shadow: Shadow,
+    /// The control loop that explains guards, before the first tick.
+    start: Shadow,
     frames: Frames,
     samples: Vec<Sample>,
+    /// The samples and the results of all ticks, from which breakpoints and counterfactuals begin.
+    past: SampleStore,
+    results: Vec<TickResult>,
+    /// The breakpoint that the newest tick has hit.
+    hit: Option<String>,
     /// The frames since the last answer. `None` if nobody watches.
     made: Option<Vec<Arc<Frame>>>,
 }
@@ -53,6 +65,8 @@ pub(crate) struct Advanced {
     /// The simulated time (s).
     time: f64,
     has_ended: bool,
+    /// The breakpoint at which the run has stopped.
+    breakpoint: Option<String>,
 }
 
 /// The answer to a request for the score.
@@ -77,51 +91,99 @@ impl Simulation {
         scenario: String,
         policy: String,
         set: &BTreeMap<String, f64>,
+        breakpoints: &[String],
     ) -> Result<(Self, ServerMessage), String> {
         let mut request = TrialRequest::new(Input::Text(Source::new("scenario.yaml", scenario)));
         request.policy = Some(PolicyInput::Text(Source::new("policy.fsm", policy)));
         request.world = Some(WorldKind::QuasiStatic);
         let prepared = request.prepare().map_err(|error| error.to_string())?;
         let (mut trial, text) = (prepared.trial, prepared.policy.text);
-        if trial.scene.stop.time > LONGEST {
-            return Err(format!(
-                "the run may take {} s; the playground simulates at most {LONGEST} s",
-                trial.scene.stop.time
-            ));
-        }
-        let policy = text.as_ref().map(|text| Breakpoints::new(text, &[])).transpose();
-        let policy = policy.map_err(|_| "the policy cannot be explained".to_owned())?.map(Arc::new);
-        let setup = RunSetup::simulated(&trial, text);
+        trial.scene.stop.time = trial.scene.stop.time.min(LONGEST);
+        let policy = text.as_ref().map(|text| Breakpoints::possible(text, breakpoints)).transpose();
+        let policy = policy.map_err(|_| "the policy cannot be explained".to_owned())?;
+        let policy = policy.map(|(policy, _)| Arc::new(policy));
+        let setup = RunSetup::simulated(&trial, text.clone());
         let bound = |trial: &Trial| -> Result<Vec<usize>, String> {
             let control = trial.control().map_err(|error| error.to_string())?;
             Ok(control.perception().fitted().map(|(_, in_rig)| in_rig).collect())
         };
         let (mut hello, numbers, changeable) = hello(&setup, &trial.program, policy.as_deref(), &bound(&trial)?);
         trial.program = changeable.apply(&trial.program, None, set)?;
-        // The guards are explained by a program whose registers are those of the explanation.
-        let explained = policy.as_ref().map(|policy| Arc::new(policy.explained.with_parameters_of(&trial.program)));
-        let explained = explained.unwrap_or_else(|| Arc::clone(&trial.program));
-        let control = Trial { program: explained, ..trial.clone() }.control().map_err(|error| error.to_string())?;
-        hello.parameters.retain(|parameter| parameter.guard.is_none());
         for parameter in &mut hello.parameters {
             parameter.value = set.get(&parameter.name).copied().unwrap_or(parameter.value);
         }
-        hello.capabilities.breakpoints = false;
-        hello.capabilities.counterfactual = false;
-        hello.capabilities.closed_loop = false;
         let frames = Frames::new(trial.assumed_rig.clone(), bound(&trial)?, Some(trial.scene.truth.clone()));
         let world = trial.world().map_err(|error| error.to_string())?;
         let run = trial.begin().map_err(|error| error.to_string())?;
         let hello = Arc::new(hello);
-        let watch = Watch {
+        let facts = RunFacts {
             hello: Arc::clone(&hello),
             numbers,
-            shadow: Shadow::new(control, policy),
+            changeable,
+            rig: trial.assumed_rig.clone(),
+            trial: Some(trial.clone()),
+        };
+        let shadow = shadow(&trial, policy)?;
+        let past = SampleStore::new(trial.assumed_rig.whiskers.len());
+        let watch = Watch {
+            facts,
+            start: shadow.clone(),
+            shadow,
             frames,
             samples: Vec::new(),
+            past,
+            results: Vec::new(),
+            hit: None,
             made: None,
         };
-        Ok((Self { trial, world, run: Some(run), ending: None, watch }, ServerMessage::Hello(hello)))
+        let simulation = Self { trial, world, run: Some(run), ending: None, source: text, watch, counterfactual: None };
+        Ok((simulation, ServerMessage::Hello(hello)))
+    }
+
+    /// Replaces the breakpoints by those of these texts, as far as the policy can have them. It must have the `new` one. The result
+    /// has those that it can have.
+    ///
+    /// # Errors
+    /// What is wrong with the new one, for people.
+    pub(crate) fn set_breakpoints(
+        &mut self,
+        texts: &[String],
+        new: Option<&String>,
+    ) -> Result<Vec<BreakpointInfo>, String> {
+        let source = self.source.as_ref().ok_or("this run has no breakpoints, because its policy has no text")?;
+        let policy = breakpoints_with(source, texts, new).map_err(|fault| format!("this is no breakpoint: {fault}"))?;
+        let infos = breakpoints(&policy);
+        // The control loop that explains guards is made again, and executes all ticks until now.
+        let mut shadow = shadow(&self.trial, Some(Arc::new(policy)))?;
+        self.watch.start = shadow.clone();
+        for tick in 0..self.watch.past.ticks() {
+            let _ = shadow.tick(&self.watch.past.get(tick));
+        }
+        self.watch.shadow = shadow;
+        Ok(infos)
+    }
+
+    /// Begins the answer to a question. An earlier one is forgotten.
+    ///
+    /// # Errors
+    /// What cannot be done, for people.
+    pub(crate) fn ask(&mut self, question: Question) -> Result<(), String> {
+        self.counterfactual = None;
+        self.counterfactual = Some(Counterfactual::begin(&self.watch, question)?);
+        Ok(())
+    }
+
+    /// Executes ticks of the answer. The result is its next piece, as soon as it is full or the last one.
+    ///
+    /// # Errors
+    /// What cannot be done, for people, or that there is no question.
+    pub(crate) fn answer(&mut self, ticks: usize) -> Result<Option<Piece>, String> {
+        let answer = self.counterfactual.as_mut().ok_or("there is no question")?;
+        let piece = answer.advance(&self.watch, ticks)?;
+        if piece.as_ref().is_some_and(|piece| piece.done) {
+            self.counterfactual = None;
+        }
+        Ok(piece)
     }
 
     /// Simulates at most this number of ticks.
@@ -131,8 +193,9 @@ impl Simulation {
     pub(crate) fn advance(&mut self, ticks: usize, frames: bool) -> Result<Advanced, String> {
         let run = self.run.as_mut().ok_or_else(scored)?;
         self.watch.made = frames.then(Vec::new);
+        self.watch.hit = None;
         for _ in 0..ticks {
-            if self.ending.is_some() {
+            if self.ending.is_some() || self.watch.hit.is_some() {
                 break;
             }
             match run.step(self.world.as_mut(), &mut self.watch) {
@@ -146,6 +209,7 @@ impl Simulation {
             ticks: trace.ticks.len(),
             time: trace.ticks.last().map_or(0.0, |tick| tick.time),
             has_ended: self.ending.is_some(),
+            breakpoint: self.watch.hit.clone(),
         })
     }
 
@@ -173,6 +237,36 @@ fn scored() -> String {
     "the run has been scored; start another one".to_owned()
 }
 
+/// The control loop that explains the guards of a policy, before the first tick. Its registers are those of the explanation.
+fn shadow(trial: &Trial, policy: Option<Arc<Breakpoints>>) -> Result<Shadow, String> {
+    let explained = policy.as_ref().map(|policy| Arc::new(policy.explained.with_parameters_of(&trial.program)));
+    let program = explained.unwrap_or_else(|| Arc::clone(&trial.program));
+    let control = Trial { program, ..trial.clone() }.control().map_err(|error| error.to_string())?;
+    Ok(Shadow::new(control, policy))
+}
+
+impl PastRun for Watch {
+    fn facts(&self) -> &RunFacts {
+        &self.facts
+    }
+
+    fn sampled(&self) -> usize {
+        self.past.ticks()
+    }
+
+    fn samples(&self, tick: usize) -> Vec<Sample> {
+        self.past.get(tick)
+    }
+
+    fn result(&self, tick: usize) -> Option<TickResult> {
+        self.results.get(tick).copied()
+    }
+
+    fn checkpoint(&self, _: usize) -> Option<(usize, Box<Shadow>)> {
+        Some((0, Box::new(self.start.clone())))
+    }
+}
+
 impl Observer for Watch {}
 
 impl Watcher for Watch {
@@ -183,9 +277,16 @@ impl Watcher for Watch {
 
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
         if let Some(made) = &mut self.made {
-            self.shadow.tick(&self.samples);
-            let frame = self.frames.frame(trace, (&self.shadow, &self.numbers, &self.hello.chart), None);
-            made.extend(frame.map(Arc::new));
+            let facts = &self.facts;
+            (_, self.hit) = self.shadow.tick(&self.samples);
+            let frame = self.frames.frame(trace, (&self.shadow, &facts.numbers, &facts.hello.chart), None);
+            if let (Some(frame), Some(tick)) = (frame, trace.ticks.last()) {
+                let state = tick.state.filter(|_| !self.shadow.has_ended());
+                let taken = frame.taken.last().copied();
+                self.results.push(TickResult { time: tick.time, state, taken, command: tick.command });
+                self.past.push(&self.samples);
+                made.push(Arc::new(frame));
+            }
         }
         ControlFlow::Continue(())
     }

@@ -10,7 +10,7 @@ export interface Span {
   to: number;
 }
 
-/** The largest number of ticks that are kept. The oldest ones are thinned. */
+/** The largest number of ticks that are kept. The oldest ones are thinned. The program keeps fewer, `FRAME_LIMIT` in `src/live/log.rs`. */
 const LIMIT = 40_000;
 
 /** The ticks that the page has received, in the order of their numbers. */

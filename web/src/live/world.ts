@@ -43,6 +43,11 @@ export class World {
     return [this.#shift[0] + (x - this.#low[0]) * this.#scale, this.#shift[1] - (y - this.#low[1]) * this.#scale];
   }
 
+  /** The point at a position (px). */
+  point([x, y]: Readonly<Point>): Point {
+    return [this.#low[0] + (x - this.#shift[0]) / this.#scale, this.#low[1] + (this.#shift[1] - y) / this.#scale];
+  }
+
   /** The path of a line through points. */
   line(points: readonly Readonly<Point>[], isClosed = false): string {
     return points.map((point, index) => `${index === 0 ? "M" : "L"}${text(this.px(point))}`).join("") + (isClosed ? "Z" : "");

@@ -5,11 +5,14 @@ const LIMIT = 1 << 20;
 /** The largest number of parameters in a link. */
 const MOST_PARAMETERS = 200;
 
-/** What a link holds. */
-export type Shared = Start;
+/** How the fragment of a link begins that holds a policy alone, as the book writes it. */
+const POLICY = "#policy=";
+
+/** What a link holds. A link from the book has no scenario. */
+export type Shared = Omit<Start, "scenario"> & { scenario: string | undefined };
 
 /** The fragment of a link: JSON, compressed, in the alphabet of URLs. */
-export async function encode(shared: Shared): Promise<string> {
+export async function encode(shared: Start): Promise<string> {
   const bytes = await whole(new Blob([JSON.stringify(shared)]).stream().pipeThrough(new CompressionStream("deflate-raw")), Infinity);
   let text = "";
   for (const byte of bytes) {
@@ -20,10 +23,16 @@ export async function encode(shared: Shared): Promise<string> {
 
 /** What a fragment holds. Undefined if it is not one of this page, or a damaged one: nothing in a link is trusted. */
 export async function decode(fragment: string): Promise<Shared | undefined> {
-  if (!fragment.startsWith("#1") || fragment.length > LIMIT) {
+  if (fragment.length > LIMIT) {
     return undefined;
   }
   try {
+    if (fragment.startsWith(POLICY)) {
+      return { scenario: undefined, policy: decodeURIComponent(fragment.slice(POLICY.length)), set: {} };
+    }
+    if (!fragment.startsWith("#1")) {
+      return undefined;
+    }
     const text = atob(fragment.slice(2).replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
     const raw = await whole(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw")), LIMIT);

@@ -1,4 +1,4 @@
-import type { PageMessage, ServerMessage } from "../live/protocol.ts";
+import type { PageMessage, Point, ServerMessage } from "../live/protocol.ts";
 
 /** A text of the program: a scenario or a policy. */
 export interface BuiltIn {
@@ -22,7 +22,11 @@ export interface Lesson {
 export interface Catalog {
   version: string;
   scenarios: BuiltIn[];
+  /** The policies that every run is compared with. */
   policies: BuiltIn[];
+  /** The policies to begin from. */
+  templates: BuiltIn[];
+  families: { name: string; about: string }[];
   lessons: Lesson[];
   /** The words of the language by the scopes in which editors show them. */
   words: Record<string, string[]>;
@@ -45,6 +49,34 @@ export interface Start {
   set: Record<string, number>;
 }
 
+/** A drawn scene of a family. */
+export interface Drawn {
+  scenario: string;
+  /** The speed (m/s) of its run. */
+  speed: number;
+}
+
+/** An object of a scenario, as `crates/playground/src/shapes.rs` defines it. */
+export interface Shape {
+  kind: string;
+  points: Point[];
+  radius: number | null;
+}
+
+/** A change of an object of a scenario. */
+export type Change =
+  | { what: "move"; object: number; point: number; to: Point }
+  | { what: "resize"; object: number; radius: number }
+  | { what: "remove"; object: number }
+  | { what: "disk"; centre: Point; radius: number }
+  | { what: "polygon"; corners: Point[] };
+
+/** A question that the machine answers at once. */
+export type Question =
+  | { type: "draw"; family: string; number: number }
+  | { type: "shapes"; scenario: string }
+  | { type: "reshape"; scenario: string; change: Change };
+
 /** A message from the page to its worker. */
 export type ToWorker =
   | { type: "start"; start: Start; speed: number }
@@ -52,13 +84,15 @@ export type ToWorker =
   | { type: "speed"; speed: number }
   | { type: "live"; message: PageMessage }
   | { type: "language"; message: unknown }
-  | { type: "compare"; scenario: string; policies: string[] };
+  | { type: "ask"; id: number; question: Question }
+  | { type: "compare"; scenario: string; policies: string[]; set: Record<string, number> };
 
 /** A message from the worker to its page. */
 export type FromWorker =
   | { type: "ready"; catalog: Catalog }
   | { type: "live"; message: ServerMessage }
   | { type: "language"; messages: LanguageMessage[] }
+  | { type: "answered"; id: number; answer: unknown; error: string | undefined }
   | { type: "refused"; error: string }
   | { type: "scored"; result: Result; picture: string; realtime: number }
   | { type: "compared"; scenario: string; policy: string; result: Result | undefined }

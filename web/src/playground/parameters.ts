@@ -16,7 +16,8 @@ export class Parameters {
   constructor(changed: () => void) {
     this.#changed = changed;
     const reset = button("values of the text", () => this.clear(), "restore all values of the text");
-    this.element.open = true;
+    // In a narrow window, they would be between the policy and its run.
+    this.element.open = matchMedia("(min-width: 761px)").matches;
     this.element.append(element("summary", "", "Parameters"), element("div", "table", element("table", "", this.#body)), element("div", "tools", reset));
     this.element.hidden = true;
   }
@@ -42,6 +43,11 @@ export class Parameters {
       return field;
     });
     this.#body.replaceChildren(...this.#fields.map(({ row }) => row));
+  }
+
+  /** True if the policy that ran last has a parameter with this name. */
+  has(name: string): boolean {
+    return name in this.#values || this.#fields.some(({ info }) => info.name === name);
   }
 
   /** Restores the values of the text. */

@@ -7,16 +7,18 @@ import { element } from "../shared/element.ts";
 import { Editor, services } from "./editor.ts";
 import { Language } from "./language.ts";
 import { Lessons } from "./lessons.ts";
-import { decode, encode, type Shared } from "./link.ts";
-import type { BuiltIn, Catalog, FromWorker, Result } from "./messages.ts";
+import { decode, encode } from "./link.ts";
+import type { BuiltIn, Catalog, Change, Drawn, FromWorker, Question, Result, Shape, Start } from "./messages.ts";
 import { Parameters } from "./parameters.ts";
+import { Scenes } from "./scenes.ts";
 import { Score } from "./score.ts";
+import { Shapes } from "./shapes.ts";
 import { Simulator } from "./simulator.ts";
 import { policySyntax, scenarioSyntax } from "./syntax.ts";
 
 /** The ratios of simulated time to wall time. */
 const SPEEDS: readonly [speed: number, name: string][] = [[1, "real time"], [5, "5 times"], [20, "20 times"], [Infinity, "as fast as possible"]];
-/** The time (ms) after the last change of a slider before the run begins again. */
+/** The time (ms) after the last change of a slider or of a shape before the run begins again. */
 const PAUSE = 150;
 
 /** The playground: editors, the run, and its score. */
@@ -26,7 +28,6 @@ export class Playground {
   readonly #language: Language;
   readonly #parameters = new Parameters(() => this.#runSoon());
   readonly #score = new Score();
-  readonly #scene = element("select");
   readonly #template = element("select");
   readonly #speed = element("select");
   readonly #fault = element("pre", "fault");
@@ -34,12 +35,16 @@ export class Playground {
   readonly #problems = element("p", "hint problems");
   readonly #saves = element("div", "tools");
   readonly #run: HTMLButtonElement;
+  readonly #shapes = new Shapes((change) => this.#reshape(change));
   #lessons: Lessons | undefined;
+  #scenes: Scenes | undefined;
   #catalog: Catalog | undefined;
   #policy: Editor | undefined;
   #scenario: Editor | undefined;
   #receive: (message: ServerMessage) => void = () => undefined;
   #compared = "";
+  /** The speed (m/s) that belongs to a drawn scene. */
+  #drawn: { speed?: number } = {};
   #running = { policy: "", scenario: "" };
   #last: { result: Result; picture: string } | undefined;
   #timer: number | undefined;
@@ -94,20 +99,22 @@ export class Playground {
         break;
       case "alive":
       case "broken":
+      case "answered":
     }
   }
 
   /** Builds the page, as soon as the machine is there. */
   async #build(catalog: Catalog): Promise<void> {
-    const { scenarios, policies, words } = catalog;
+    const { scenarios, policies, templates: known, words } = catalog;
     const scene = element("div", "stage");
     const choose = (select: HTMLSelectElement, label: string, names: readonly string[], changed: () => void): HTMLElement => {
       select.append(...names.map((name, index) => new Option(name, String(index))));
       select.addEventListener("change", changed);
       return element("label", "", `${label} `, select);
     };
-    const scenes = choose(this.#scene, "scene", [...scenarios.map(({ name }) => name), "own"], () => this.#chooseScene());
-    const templates = choose(this.#template, "policy", [...policies.map(({ name }) => name), "own"], () => this.#chooseTemplate());
+    const draw = async (family: string, number: number): Promise<Drawn | undefined> => (await this.#ask({ type: "draw", family, number })) as Drawn | undefined;
+    const scenes = this.#scenes = new Scenes(catalog, draw, (text, speed) => this.#chooseScene(text, speed));
+    const templates = choose(this.#template, "policy", [...known.map(({ name }) => name), "own"], () => this.#chooseTemplate());
     const speeds = choose(this.#speed, "speed", SPEEDS.map(([, name]) => name), () => this.#simulator.send({ type: "speed", speed: this.#pace() }));
     this.#speed.value = "2";
     this.#run.className = "primary";
@@ -126,26 +133,26 @@ export class Playground {
     const policyBox = element("div", "editor");
     const scenarioBox = element("div", "editor");
     this.#lessons = new Lessons(catalog.lessons ?? [], (policy, scene) => {
-      this.#load(policy, this.#builtIn(scene));
+      this.#load(policy, scenes.named(scene) ?? "");
       this.#start();
     });
     const details = element("details", "", element("summary", "", "Scenario"), scenarioBox);
+    this.#shapes.element.addEventListener("toggle", () => void this.#showShapes());
     const live = element("div", "live");
-    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#fault, details, this.#parameters.element);
+    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#fault, this.#shapes.element, details, this.#parameters.element);
     const right = element("div", "column", scene, this.#score.element, this.#saves);
     this.#root.replaceChildren(
-      element("header", "bar", element("p", "brand", "Vibrissa playground"), element("div", "choices", scenes, templates, speeds), tools, this.#notice),
+      element("header", "bar", element("p", "brand", "Vibrissa playground"), element("div", "choices", scenes.element, templates, speeds), tools, this.#notice),
       element("div", "bench", left, right), live);
     this.#policy = new Editor(policyBox, "policy", (text) => {
-      if (this.#catalog?.policies[Number(this.#template.value)]?.text !== text) {
-        this.#template.value = String(policies.length);
+      if (this.#catalog?.templates[Number(this.#template.value)]?.text !== text) {
+        this.#template.value = String(known.length);
       }
       this.#language.change(text);
     }, [policySyntax(words), ...services(this.#language)]);
     this.#scenario = new Editor(scenarioBox, "scenario", (text) => {
-      if (this.#catalog?.scenarios[Number(this.#scene.value)]?.text !== text) {
-        this.#scene.value = String(scenarios.length);
-      }
+      scenes.show(text);
+      void this.#showShapes();
     }, [scenarioSyntax()]);
     this.#language.open("");
     new Page(live, (receive): Peer => {
@@ -164,7 +171,7 @@ export class Playground {
       }
     }));
     if (!(await this.#openLink())) {
-      this.#load(policies[0]?.text ?? "", scenarios[0]);
+      this.#load(policies[0]?.text ?? "", scenarios[0]?.text ?? "");
     }
     this.#start();
   }
@@ -179,40 +186,73 @@ export class Playground {
       this.#tell("The link holds no policy that this page can read.");
       return false;
     }
-    this.#load(shared.policy, { name: "own", text: shared.scenario });
+    this.#load(shared.policy, shared.scenario ?? this.#catalog?.scenarios[0]?.text ?? "");
     this.#parameters.take(shared.set);
     return true;
   }
 
   /** Shows texts. */
-  #load(policy: string, scenario: BuiltIn | undefined): void {
+  #load(policy: string, scenario: string): void {
     if (this.#policy && this.#scenario && this.#catalog) {
-      const place = (texts: readonly BuiltIn[], text: string | undefined): string => {
+      const place = (texts: readonly BuiltIn[], text: string): string => {
         const index = texts.findIndex((known) => known.text === text);
         return String(index < 0 ? texts.length : index);
       };
-      this.#template.value = place(this.#catalog.policies, policy);
-      this.#scene.value = place(this.#catalog.scenarios, scenario?.text);
+      this.#template.value = place(this.#catalog.templates, policy);
+      this.#drawn = {};
       this.#parameters.take({});
       this.#policy.text = policy;
-      this.#scenario.text = scenario?.text ?? "";
+      this.#scenario.text = scenario;
+      this.#scenes?.show(scenario);
     }
   }
 
-  #builtIn(name: string): BuiltIn | undefined {
-    return this.#catalog?.scenarios.find((scenario) => scenario.name === name);
-  }
-
-  #chooseScene(): void {
-    const scenario = this.#catalog?.scenarios[Number(this.#scene.value)];
-    if (scenario && this.#scenario) {
-      this.#scenario.text = scenario.text;
+  /** Shows a scene, and runs the policy in it. */
+  #chooseScene(text: string, speed: number | undefined): void {
+    if (this.#scenario) {
+      this.#scenario.text = text;
+      this.#scenes?.show(text);
+      const { speed: own, ...others } = this.#parameters.set;
+      const kept = own === undefined || own === this.#drawn.speed ? others : { ...others, speed: own };
+      this.#drawn = speed !== undefined && this.#parameters.has("speed") ? { speed } : {};
+      this.#parameters.take({ ...kept, ...this.#drawn });
       this.#start();
     }
   }
 
+  /** Asks the machine. What is wrong is told, and has no answer. */
+  async #ask(question: Question): Promise<unknown> {
+    try {
+      return await this.#simulator.ask(question);
+    } catch (fault) {
+      this.#tell(fault instanceof Error ? fault.message : String(fault));
+      return undefined;
+    }
+  }
+
+  /** Changes an object of the scenario, and runs the policy in it. */
+  async #reshape(change: Change): Promise<void> {
+    const changed = (await this.#ask({ type: "reshape", scenario: this.#scenario?.text ?? "", change })) as { scenario: string } | undefined;
+    if (changed && this.#scenario) {
+      this.#scenario.text = changed.scenario;
+      this.#runSoon();
+    }
+  }
+
+  /** Shows the objects of the text of the scenario, while somebody sees them. */
+  async #showShapes(): Promise<void> {
+    const text = this.#scenario?.text ?? "";
+    if (this.#shapes.element.open) {
+      // A text that is being written is not always a scenario.
+      const shapes = (await this.#simulator.ask({ type: "shapes", scenario: text }).catch(() => undefined)) as Shape[] | undefined;
+      if (shapes && this.#scenario?.text === text) {
+        this.#shapes.show(shapes);
+      }
+    }
+  }
+
   #chooseTemplate(): void {
-    const policy = this.#catalog?.policies[Number(this.#template.value)];
+    const policy = this.#catalog?.templates[Number(this.#template.value)];
     if (policy && this.#policy) {
       this.#parameters.take({});
       this.#policy.text = policy.text;
@@ -224,7 +264,7 @@ export class Playground {
     return SPEEDS[Number(this.#speed.value)]?.[0] ?? Infinity;
   }
 
-  #texts(): Shared {
+  #texts(): Start {
     return { policy: this.#policy?.text ?? "", scenario: this.#scenario?.text ?? "", set: { ...this.#parameters.set } };
   }
 
@@ -234,6 +274,7 @@ export class Playground {
   }
 
   #start(): void {
+    clearTimeout(this.#timer);
     const start = this.#texts();
     this.#running = start;
     this.#fault.textContent = "";
@@ -242,7 +283,8 @@ export class Playground {
   }
 
   #begin(hello: Hello): void {
-    this.#parameters.show(hello.parameters);
+    this.#shapes.begin(hello);
+    this.#parameters.show(hello.parameters.filter(({ guard }) => guard === null));
     if (this.#compared !== this.#running.scenario) {
       this.#score.clear();
     }
@@ -253,7 +295,7 @@ export class Playground {
     this.#compared = this.#running.scenario;
     const missing = (this.#catalog?.policies ?? []).map(({ name }) => name).filter((name) => !this.#score.has(name));
     if (missing.length > 0) {
-      this.#simulator.send({ type: "compare", scenario: this.#compared, policies: missing });
+      this.#simulator.send({ type: "compare", scenario: this.#compared, policies: missing, set: { ...this.#drawn } });
     }
   }
 

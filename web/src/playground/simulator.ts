@@ -1,4 +1,4 @@
-import type { FromWorker, ToWorker } from "./messages.ts";
+import type { FromWorker, Question, ToWorker } from "./messages.ts";
 
 /** The time (ms) after which a worker that does not answer is ended. */
 const PATIENCE = 10_000;
@@ -7,6 +7,8 @@ const PATIENCE = 10_000;
 export class Simulator {
   readonly #receive: (message: FromWorker) => void;
   readonly #replaced: (reason: string) => void;
+  readonly #waiting = new Map<number, { resolve: (answer: unknown) => void; reject: (fault: Error) => void }>();
+  #next = 1;
   #worker: Worker;
   #timer: number | undefined;
 
@@ -21,6 +23,23 @@ export class Simulator {
     this.#timer ??= setTimeout(() => this.#replace("The simulation did not answer and was stopped."), PATIENCE);
   }
 
+  /** Asks a question. What is wrong with it is an error. */
+  ask(question: Question): Promise<unknown> {
+    const id = this.#next++;
+    this.send({ type: "ask", id, question });
+    return new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));
+  }
+
+  #answered(id: number, answer: unknown, error: string | undefined): void {
+    const waiting = this.#waiting.get(id);
+    this.#waiting.delete(id);
+    if (error === undefined) {
+      waiting?.resolve(answer);
+    } else {
+      waiting?.reject(new Error(error));
+    }
+  }
+
   #start(): Worker {
     const worker = new Worker("worker.js");
     worker.addEventListener("message", ({ data }: MessageEvent<FromWorker>) => {
@@ -28,6 +47,8 @@ export class Simulator {
       this.#timer = undefined;
       if (data.type === "broken") {
         this.#replace(`The simulation broke off: ${data.error}`);
+      } else if (data.type === "answered") {
+        this.#answered(data.id, data.answer, data.error);
       } else {
         this.#receive(data);
       }
@@ -40,6 +61,7 @@ export class Simulator {
     clearTimeout(this.#timer);
     this.#timer = undefined;
     this.#worker = this.#start();
+    [...this.#waiting.keys()].forEach((id) => this.#answered(id, undefined, reason));
     this.#replaced(reason);
   }
 }

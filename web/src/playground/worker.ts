@@ -1,6 +1,6 @@
-import type { Frame, Hello, Metrics, PageMessage, Status } from "../live/protocol.ts";
+import type { BreakpointInfo, Frame, Hello, Kind, Metrics, PageMessage, Piece, Status } from "../live/protocol.ts";
 import { Machine, Refusal } from "./machine.ts";
-import type { Catalog, FromWorker, LanguageMessage, Result, Start, ToWorker } from "./messages.ts";
+import type { Catalog, FromWorker, LanguageMessage, Question, Result, Start, ToWorker } from "./messages.ts";
 
 /** The part of a worker's global scope that is used here. */
 interface Scope {
@@ -15,12 +15,16 @@ const SLICE = 12;
 const PORTION = 8;
 /** The number of ticks of a comparison before the worker looks for messages. */
 const COMPARED = 120;
+/** The largest number of breakpoints. */
+const MOST_BREAKPOINTS = 64;
 
 interface Advanced {
   frames: Frame[];
   ticks: number;
   time: number;
   has_ended: boolean;
+  /** The breakpoint at which it has stopped. */
+  breakpoint: string | null;
 }
 
 interface Scored {
@@ -46,7 +50,14 @@ class Worker {
   #run = 0;
   /** True if the first comparison has begun. */
   #isComparing = false;
-  #comparisons: { scenario: string; policy: string; text: string }[] = [];
+  /** The texts of the breakpoints, also of those that the policy of this run cannot have. */
+  #breakpoints: string[] = [];
+  #broken: BreakpointInfo[] = [];
+  /** What the page was told last of the state. */
+  #shown: Partial<Status> = {};
+  /** The number of the counterfactual that is being answered. */
+  #question: number | undefined;
+  #comparisons: { scenario: string; policy: string; text: string; set: Record<string, number> }[] = [];
 
   constructor(machine: Machine) {
     this.#machine = machine;
@@ -64,11 +75,23 @@ class Worker {
         break;
       case "live": this.#control(message.message); break;
       case "language": scope.postMessage({ type: "language", messages: this.#machine.ask<LanguageMessage[]>({ type: "language", message: message.message }) }); break;
+      case "ask": this.#answer(message.id, message.question); break;
       case "compare":
         this.#isComparing = false;
-        this.#comparisons = this.#catalog.policies.filter(({ name }) => message.policies.includes(name)).map(({ name, text }) => ({ scenario: message.scenario, policy: name, text }));
+        this.#comparisons = this.#catalog.policies.filter(({ name }) => message.policies.includes(name)).map(({ name, text }) => ({ scenario: message.scenario, policy: name, text, set: message.set }));
     }
     this.#schedule();
+  }
+
+  #answer(id: number, question: Question): void {
+    try {
+      scope.postMessage({ type: "answered", id, answer: this.#machine.ask(question), error: undefined });
+    } catch (fault) {
+      if (!(fault instanceof Refusal)) {
+        throw fault;
+      }
+      scope.postMessage({ type: "answered", id, answer: undefined, error: fault.message });
+    }
   }
 
   #start({ scenario, policy, set }: Start, speed: number): void {
@@ -76,7 +99,7 @@ class Worker {
     this.#state = "finished";
     let hello: Hello;
     try {
-      hello = this.#machine.ask<Hello>({ type: "start", scenario, policy, set });
+      hello = this.#machine.ask<Hello>({ type: "start", scenario, policy, set, breakpoints: this.#breakpoints });
     } catch (fault) {
       if (!(fault instanceof Refusal)) {
         throw fault;
@@ -85,6 +108,8 @@ class Worker {
       return;
     }
     hello.run = this.#run += 1;
+    this.#broken = hello.breakpoints;
+    this.#question = undefined;
     [this.#state, this.#ticks, this.#time, this.#speed, this.#used] = ["running", 0, 0, speed, 0];
     this.#pace = [performance.now(), 0];
     scope.postMessage({ type: "live", message: hello });
@@ -100,6 +125,11 @@ class Worker {
   }
 
   #control(message: PageMessage): void {
+    switch (message.type) {
+      case "break": this.#break(message.add, message.remove); return;
+      case "counterfactual": this.#ask(message.id, message); return;
+      case "cancel": this.#question = this.#question === message.id ? undefined : this.#question; return;
+    }
     if (this.#state === "finished") {
       return;
     }
@@ -118,10 +148,67 @@ class Worker {
     }
   }
 
+  /** Adds a breakpoint or removes one. */
+  #break(add: string | null, remove: string | null): void {
+    const texts = this.#breakpoints.filter((text) => text !== remove && text !== add);
+    if (add !== null) {
+      texts.push(add);
+    }
+    if (texts.length > MOST_BREAKPOINTS) {
+      this.#fault(`there are ${MOST_BREAKPOINTS} breakpoints; remove some of them`, null);
+      return;
+    }
+    this.#try(null, () => {
+      this.#broken = this.#machine.ask<BreakpointInfo[]>({ type: "break", texts, new: add });
+      this.#breakpoints = texts;
+      this.#status(this.#shown);
+    });
+  }
+
+  /** Begins a counterfactual. */
+  #ask(id: number, { tick, kind, set }: { tick: number; kind: Kind; set: Record<string, number> }): void {
+    this.#question = undefined;
+    this.#try(id, () => {
+      this.#machine.ask({ type: "counterfactual", id, tick, kind, set });
+      this.#question = id;
+    });
+  }
+
+  /** Goes on with the counterfactual. */
+  #reply(): void {
+    const id = this.#question;
+    if (id !== undefined) {
+      this.#try(id, () => {
+        this.#question = undefined;
+        const piece = this.#machine.ask<Omit<Piece, "type"> | null>({ type: "answer", ticks: COMPARED });
+        if (piece !== null) {
+          scope.postMessage({ type: "live", message: { type: "counterfactual", ...piece } });
+        }
+        this.#question = piece?.done ? undefined : id;
+      });
+    }
+  }
+
+  /** Tells the page what the machine refuses. */
+  #try(id: number | null, work: () => void): void {
+    try {
+      work();
+    } catch (fault) {
+      if (!(fault instanceof Refusal)) {
+        throw fault;
+      }
+      this.#fault(fault.message, id);
+    }
+  }
+
+  #fault(message: string, id: number | null): void {
+    scope.postMessage({ type: "live", message: { type: "error", message, id } });
+  }
+
   /** Simulates ticks and shows them. */
   #advance(ticks: number): void {
     const before = performance.now();
-    const { frames, ticks: count, time, has_ended: hasEnded } = this.#machine.ask<Advanced>({ type: "advance", ticks });
+    const { frames, ticks: count, time, has_ended: hasEnded, breakpoint } = this.#machine.ask<Advanced>({ type: "advance", ticks });
     [this.#ticks, this.#time] = [count, time];
     this.#used += performance.now() - before;
     scope.postMessage({ type: "live", message: { type: "ticks", lost: 0, frames } });
@@ -130,16 +217,20 @@ class Worker {
       this.#state = "finished";
       this.#status({ verdict, reason, metrics });
       scope.postMessage({ type: "scored", result, picture, realtime: (1000 * time) / Math.max(this.#used, 1) });
+    } else if (breakpoint !== null) {
+      this.#state = "paused";
+      this.#status({ reason: "breakpoint", breakpoint });
     }
   }
 
   #status(changed: Partial<Status> = {}): void {
-    scope.postMessage({ type: "live", message: { type: "status", state: this.#state, reason: null, breakpoint: null, verdict: null, metrics: null, ticks: this.#ticks, kept_every: 1, breakpoints: [], ...changed } });
+    this.#shown = changed;
+    scope.postMessage({ type: "live", message: { type: "status", state: this.#state, reason: null, breakpoint: null, verdict: null, metrics: null, ticks: this.#ticks, kept_every: 1, breakpoints: this.#broken, ...changed } });
   }
 
   /** Goes on with the run, or with a comparison, as soon as all messages are read. */
   #schedule(): void {
-    if (!this.#isScheduled && (this.#state === "running" || (this.#state === "finished" && this.#comparisons.length > 0))) {
+    if (!this.#isScheduled && (this.#state === "running" || this.#question !== undefined || (this.#state === "finished" && this.#comparisons.length > 0))) {
       this.#isScheduled = true;
       const isAhead = this.#state === "running" && this.#time > this.#allowed();
       setTimeout(() => {
@@ -162,6 +253,7 @@ class Worker {
     while (this.#state === "running" && performance.now() < end && this.#time <= this.#allowed()) {
       this.#advance(this.#speed === Infinity ? PORTION : 1);
     }
+    this.#reply();
     if (this.#state === "finished") {
       this.#compare();
     }
@@ -174,18 +266,18 @@ class Worker {
     if (next === undefined) {
       return;
     }
-    const { scenario, policy, text } = next;
+    const { scenario, policy, text, set } = next;
     let result: Result | undefined;
     try {
       if (!this.#isComparing) {
-        this.#machine.ask({ type: "start", scenario, policy: text });
+        this.#machine.ask({ type: "start", scenario, policy: text, set, beside: true });
         this.#isComparing = true;
         return;
       }
-      if (!this.#machine.ask<Advanced>({ type: "advance", ticks: COMPARED, frames: false }).has_ended) {
+      if (!this.#machine.ask<Advanced>({ type: "advance", ticks: COMPARED, frames: false, beside: true }).has_ended) {
         return;
       }
-      result = this.#machine.ask<Scored>({ type: "score" }).result;
+      result = this.#machine.ask<Scored>({ type: "score", beside: true }).result;
     } catch (fault) {
       if (!(fault instanceof Refusal)) {
         throw fault;
