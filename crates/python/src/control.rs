@@ -9,6 +9,7 @@ use vibrissa_runtime::machine::{LoggedMessage, Senses, Status, WhiskerScalar, Wh
 use vibrissa_runtime::signal;
 
 use crate::arrays::{Numbers, list, table};
+use crate::map::of_map;
 use crate::pickle::{Reduced, hash_of, restored_from};
 use crate::samples::GivenSamples;
 
@@ -119,12 +120,22 @@ impl Control {
             [tip.x, tip.y]
         });
         perceived.set_item("tip_m", table(py, tips.collect(), 2)?)?;
+        let tangents = fitted.iter().flat_map(|&whisker| {
+            let tangent = perception.whisker_vector(whisker, WhiskerVector::ContourTangent);
+            [tangent.x, tangent.y]
+        });
+        perceived.set_item("tangent", table(py, tangents.collect(), 2)?)?;
         perceived.set_item("tip_spread_m", each(&|whisker| perception.recorded_deviation(whisker)))?;
         let recorded = |&whisker: &usize| perception.recorded_tip(whisker).is_some();
         perceived.set_item("recorded", list(py, fitted.iter().map(recorded).collect()))?;
         let closed = |&whisker: &usize| perception.loop_closed(whisker, closed_within_m, closed_after_s);
         perceived.set_item("loop_closed", list(py, fitted.iter().map(closed).collect()))?;
         Ok(perceived)
+    }
+
+    /// The map by touch, with the recorded contours: a dictionary. `None` if there is none.
+    fn map<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        self.inner.map().map(|map| of_map(py, map, &self.inner.machine().program().whiskers)).transpose()
     }
 
     #[staticmethod]

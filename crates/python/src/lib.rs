@@ -12,6 +12,7 @@ mod episode;
 mod error;
 mod input;
 mod machine;
+mod map;
 mod observation;
 mod pickle;
 mod raster;

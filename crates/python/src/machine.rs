@@ -8,6 +8,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 use vibrissa::diagnostic::{Colour, terminal};
 use vibrissa::request::{self, PolicyInput, PreparedPolicy};
 use vibrissa_runtime::machine::Artifact;
+use vibrissa_runtime::map::MapSettings;
 
 use crate::control::Control;
 use crate::error::error;
@@ -89,13 +90,22 @@ impl Machine {
         Ok(PyBytes::new(py, &self.artifact.to_bytes().map_err(error)?))
     }
 
-    /// The control loop of a rig under this machine, at the start of a run. Without a rig, that of the reference rig.
-    #[pyo3(signature = (rig = None))]
-    fn start(&self, py: Python<'_>, rig: Option<Bound<'_, Rig>>) -> PyResult<Control> {
+    /// The control loop of a rig under this machine, at the start of a run. Without a rig, that of the reference rig. With `map`, it
+    /// has a map also if the policy does not use one.
+    #[pyo3(signature = (rig = None, *, map = false))]
+    fn start(&self, py: Python<'_>, rig: Option<Bound<'_, Rig>>, map: bool) -> PyResult<Control> {
         let rig = rig.map_or_else(vibrissa_runtime::rig::Rig::default, |rig| rig.get().0.clone());
         let program = Arc::new(self.artifact.program.clone());
         // Tables of perception may take a while.
-        let control = py.detach(|| vibrissa_runtime::control::Control::new(&rig, program)).map_err(error)?;
+        let control = py.detach(|| {
+            let control = vibrissa_runtime::control::Control::new(&rig, program)?;
+            if map && control.map().is_none() {
+                control.with_map(&rig, MapSettings::for_rig(&rig))
+            } else {
+                Ok(control)
+            }
+        });
+        let control = control.map_err(error)?;
         Ok(Control::new(control, rig.whiskers.len()))
     }
 

@@ -3,7 +3,8 @@
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyDict, PyType};
+use vibrissa::diagnostic::Source;
 use vibrissa::physics::Preset;
 use vibrissa::request::{self, Input};
 use vibrissa::rig::{self, Access, Part, Place, RigKey};
@@ -71,11 +72,20 @@ impl Rig {
 
 #[pymethods]
 impl Rig {
+    /// The rig of a scenario, or a rig with these keys: `Rig(platform={"servo": "200 ms"})`. Without both, the reference rig.
     #[new]
-    #[pyo3(signature = (scenario = None))]
-    fn new(scenario: Option<GivenInput<'_>>) -> PyResult<Self> {
-        let Some(scenario) = scenario else { return Ok(Self(vibrissa_runtime::rig::Rig::default())) };
-        Ok(Self(request::scene(&scenario.into()).map_err(error)?.assumed_rig()))
+    #[pyo3(signature = (scenario = None, **keys))]
+    fn new(scenario: Option<GivenInput<'_>>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        match (scenario, keys) {
+            (None, None) => Ok(Self(vibrissa_runtime::rig::Rig::default())),
+            (Some(scenario), None) => Ok(Self(request::scene(&scenario.into()).map_err(error)?.assumed_rig())),
+            (None, Some(keys)) => {
+                // JSON is YAML, so keys and values are checked as those of a file.
+                let text: String = keys.py().import("json")?.call_method1("dumps", (keys,))?.extract()?;
+                Ok(Self(request::rig(&Input::Text(Source::new("keywords", text))).map_err(error)?))
+            }
+            (Some(_), Some(_)) => Err(error("give a scenario or keys of a rig, not both")),
+        }
     }
 
     /// Loads a rig without a scenario: a text or a file with the keys that `rig` has in a scenario, or the name of a built-in

@@ -221,8 +221,8 @@ impl Trial {
 
 fn world_kind(name: &str) -> PyResult<WorldKind> {
     let known = || WorldKind::ALL.map(|kind| format!("`{kind}`")).join(" and ");
-    let kind = WorldKind::ALL.into_iter().find(|kind| kind.name() == name);
-    kind.ok_or_else(|| error(format_args!("there is no world `{name}`; there are {}", known())))
+    let kind = WorldKind::named(name);
+    kind.ok_or_else(|| error(format_args!("there is no simulator `{name}`; there are {}", known())))
 }
 
 /// Number of ticks between two looks for a signal, such as Ctrl-C.
@@ -264,5 +264,5 @@ pub(crate) fn use_mujoco(file: PathBuf) -> PyResult<()> {
     #[cfg(feature = "sim")]
     return vibrissa::mujoco::set_library(&file).map_err(error);
     #[cfg(not(feature = "sim"))]
-    return Err(error(format_args!("{}: this build has no world `mujoco`", file.display())));
+    return Err(error(format_args!("{}: this build has no simulator `mujoco`", file.display())));
 }

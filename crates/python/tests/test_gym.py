@@ -62,6 +62,24 @@ def test_the_same_seed_gives_the_same_episode_and_another_seed_another_one():
     assert first != other
 
 
+@pytest.mark.parametrize("mode", ["sync", "async"])
+def test_several_environments_at_once_do_what_each_does_alone(mode):
+    options = dict(jitter=(0.02, 0.1), time_limit_s=2.0)
+    alone = [vibrissa.gym.WhiskerEnv("disk", **options) for _ in range(2)]
+    together = gymnasium.make_vec("Vibrissa-v0", num_envs=2, vectorization_mode=mode, **options)
+    seen, _ = together.reset(seed=[3, 4])
+    expected = [environment.reset(seed=seed)[0] for environment, seed in zip(alone, [3, 4])]
+    action = np.array([[0.5, 0.1, -0.1], [0.4, -0.2, 0.0]], dtype=np.float32)
+    for _ in range(20):
+        for name, values in seen.items():
+            assert np.array_equal(values, [own[name] for own in expected]), name
+        seen, rewards, *_ = together.step(action)
+        steps = [environment.step(own) for environment, own in zip(alone, action)]
+        expected = [step[0] for step in steps]
+        assert np.array_equal(rewards, [step[1] for step in steps])
+    together.close()
+
+
 def test_the_scene_of_an_episode_may_depend_on_its_seed():
     drawn = []
 

@@ -24,6 +24,7 @@ def test_a_machine_repeats_the_commands_of_a_run_bit_for_bit(policy):
         assert np.array_equal(perceived["deflection_rad"], ticks["deflection_rad"][tick])
         assert np.array_equal(perceived["touching"], ticks["touching"][tick])
         assert np.array_equal(perceived["recorded"], ticks["recorded"][tick])
+        assert np.array_equal(perceived["tangent"], ticks["tangent"][tick], equal_nan=True)
         recorded = perceived["recorded"]
         assert np.array_equal(perceived["tip_m"][recorded], ticks["tip_m"][tick][recorded])
     assert len(ticks["time_s"]) > 1000
@@ -51,6 +52,31 @@ def test_a_closed_loop_is_perceived_in_the_tick_after_the_tip_that_closes_it():
     rows = result.samples["tick"] == len(closed) - 1
     control.tick(*(result.samples[name][rows] for name in names))
     assert control.perceived()["loop_closed"].any() and not any(closed)
+
+
+def test_a_map_has_the_recorded_contour_whatever_the_policy():
+    trial = vibrissa.Trial("disk", "vibrissa", world="quasistatic")
+    result = trial.run(samples=True)
+    machine = vibrissa.compile("vibrissa")
+    control, without = machine.start(trial.rig, map=True), machine.start(trial.rig)
+    names = ["time_s", "position_m", "heading_rad", "base_angle_rad"]
+    for tick in range(len(result.ticks["time_s"])):
+        rows = result.samples["tick"] == tick
+        samples = [result.samples[name][rows] for name in names]
+        assert control.tick(*samples) == without.tick(*samples), "a map changes no command"
+    assert without.map() is None
+    known = control.map()
+    away = known["contour_m"] - [0.4, 0.4]
+    assert np.abs(np.hypot(*away.T) - 0.3).max() < 1e-3
+    assert known["contour_length_m"] == pytest.approx(2 * np.pi * 0.3, rel=0.02)
+    assert (np.einsum("ij,ij->i", known["normal"], away) > 0.29).all(), "normals point to the whisker"
+    assert len(known["whisker"]) == len(known["piece"]) == len(known["spread_m"]) == len(away)
+    assert set(known["whisker"]) <= set(machine.whiskers)
+    spans = known["free_m"]
+    assert known["free_area_m2"] == pytest.approx(np.prod(spans[:, 2:] - spans[:, :2], axis=1).sum())
+    middles = (spans[:, 2:] + spans[:, :2]) / 2
+    assert (np.hypot(*(middles - [0.4, 0.4]).T) > 0.3).all(), "no free ground in the disk"
+    assert known["blocked_m"].shape[1] == 4 and known["unknown_area_m2"] >= 0 and not known["is_complete"]
 
 
 def test_the_bytes_are_those_that_the_program_compiles(tmp_path):

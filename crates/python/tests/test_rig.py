@@ -32,6 +32,17 @@ def test_a_rig_alone_is_that_of_a_scenario_with_the_same_keys(tmp_path):
     assert (expected.speed_limit_m_s, expected.whiskers) == (0.2, ["r0", "l0"])
 
 
+def test_keywords_are_the_keys_of_a_rig():
+    whisker = {"length": "120 mm"}
+    platform = {"servo": "200 ms", "yaw_servo": "0.1 s", "speed_limit": "0.2 m/s"}
+    assert vibrissa.Rig(platform=platform, whiskers={"r0": whisker, "l0": whisker}) == vibrissa.Rig.load(vibrissa.Text(KEYS))
+    assert vibrissa.Rig(preset="thesis_array") == vibrissa.Rig.load("thesis_array")
+    with pytest.raises(vibrissa.Error, match="a rig has no key `plattform`"):
+        vibrissa.Rig(plattform={})
+    with pytest.raises(vibrissa.Error, match="not both"):
+        vibrissa.Rig("disk", platform=platform)
+
+
 def test_the_built_in_rigs_have_their_names():
     assert vibrissa.rigs() == ["reference", "peer_cable", "thesis_array"]
     for name in vibrissa.rigs():

@@ -24,7 +24,7 @@ def test_the_example_has_the_figures_of_the_program_to_the_last_digit(program, w
     )
     policies = [ROOT / f"policies/{name}.fsm" for name in vibrissa.policies()]
     files = [f"scenarios/{name}.yaml" for name in scenarios]
-    expected = [program("run", *files, "--world", world, "--policy", policy) for policy in policies]
+    expected = [program("run", *files, "--simulator", world, "--policy", policy) for policy in policies]
     by_scenario = [run for runs in zip(*expected) for run in runs]
     found = json.loads(printed.stdout)
     assert len(found) == 2 * len(scenarios)
@@ -42,7 +42,7 @@ def test_options_have_the_effect_that_they_have_in_the_program(program):
         mismatch=ROOT / mismatch,
         mismatch_seed=3,
     )
-    options = ["--world", "quasistatic", "--seed", "5", "--set", "speed=40 mm/s"]
+    options = ["--simulator", "quasistatic", "--seed", "5", "--set", "speed=40 mm/s"]
     options += ["--policy", "policies/vibrissa.fsm"]
     [expected] = program("run", ROOT / "scenarios/disk.yaml", *options, "--mismatch", ROOT / mismatch, "--mismatch-seed", "3")
     assert timeless(result.figures) == timeless(expected)
@@ -56,7 +56,7 @@ def test_a_built_in_scenario_needs_no_file(monkeypatch, tmp_path):
 
 def test_the_arrays_of_ticks_are_those_that_the_program_writes(program, tmp_path):
     file = tmp_path / "ticks.jsonl"
-    program("run", "scenarios/disk.yaml", "--world", "quasistatic", "--ticks", file)
+    program("run", "scenarios/disk.yaml", "--simulator", "quasistatic", "--ticks", file)
     lines = [json.loads(line) for line in file.read_text().splitlines()]
     result = vibrissa.run("disk", world="quasistatic")
     ticks = result.ticks

@@ -15,7 +15,8 @@ def public(names):
 
 
 def parameters(function):
-    every = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
+    arguments = function.args
+    every = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *filter(None, [arguments.kwarg])]
     return [argument.arg for argument in every if argument.arg not in ("self", "cls")]
 
 
