@@ -46,6 +46,7 @@ Commands:
             --program FILE use this program instead of building it
   python  build the wheel of the Python package, install it into a fresh virtual environment and run its tests
   pi      build the robot's program for the Raspberry Pi and pack it in target/pi
+  release build, check and list everything that a tag publishes, in target/release-files; takes half an hour
   fuzz N  try N mutated and generated policies in release; FUZZ_SEED=K tries others
   help    print this";
 
@@ -73,6 +74,7 @@ pub(crate) enum Command {
     Pieces(pieces::Options),
     Python,
     Pi,
+    Release,
     Web,
     Playground,
     Fuzz(u64),
@@ -125,6 +127,7 @@ impl Command {
             "pieces" => return parse_pieces(arguments),
             "python" => Self::Python,
             "pi" => Self::Pi,
+            "release" => Self::Release,
             "web" => Self::Web,
             "playground" => Self::Playground,
             "fuzz" => {

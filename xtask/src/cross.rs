@@ -11,11 +11,13 @@ use crate::standard_library::{self, LibraryError};
 
 /// The target.
 pub(crate) const TARGET: &str = "aarch64-unknown-linux-gnu";
+/// What runs a program for aarch64 on another processor, with its arguments.
+pub(crate) const EMULATOR: [&str; 3] = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"];
 /// What a cross build needs besides Rust: the Debian package, and a file or a program of it.
 const NEEDS: [(&str, &str); 3] = [
     ("gcc-aarch64-linux-gnu", "aarch64-linux-gnu-gcc"),
     ("libc6-dev-arm64-cross", "/usr/aarch64-linux-gnu/lib/crt1.o"),
-    ("qemu-user-static", "qemu-aarch64-static"),
+    ("qemu-user-static", EMULATOR[0]),
 ];
 
 /// The settings with which Cargo builds for aarch64 and runs what it has built.
@@ -45,7 +47,7 @@ impl Cross {
         }
         let mut settings = vec![
             ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER", "aarch64-linux-gnu-gcc".into()),
-            ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER", "qemu-aarch64-static -L /usr/aarch64-linux-gnu".into()),
+            ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER", EMULATOR.join(" ").into()),
         ];
         if !standard_library::is_installed(TARGET) {
             let folder = standard_library::built(root)?.ok_or(CrossError::Library)?;

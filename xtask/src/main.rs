@@ -18,12 +18,14 @@ mod instructions;
 mod json;
 mod links;
 mod nightly;
+mod pack;
 mod pi;
 mod pieces;
 mod platform;
 mod playground;
 mod prose;
 mod python;
+mod release;
 mod results;
 mod runtime;
 mod setup;
@@ -73,7 +75,10 @@ fn main() -> ExitCode {
         Command::Nightly(options) => status(nightly::nightly(&root, &options)),
         Command::Pieces(options) => status(pieces::write(&root, &options)),
         Command::Python => status(python::test(&root)),
-        Command::Pi => status(pi::pack(&root)),
+        Command::Pi => status(pi::pack(&root).map(|_| ())),
+        Command::Release => {
+            status(release::release(&root).map(|folder| println!("All files are in {}.", folder.display())))
+        }
         Command::Web => status(web::write(&root)),
         Command::Playground => status(playground::build(&root).map(|folder| println!("{}", folder.display()))),
         Command::Fuzz(texts) => status(fuzz::fuzz(&root, texts)),

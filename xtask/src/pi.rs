@@ -1,13 +1,14 @@
 //! The robot's program for the Raspberry Pi: an archive and a Debian package.
 
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
-use std::{fs, io};
+use std::process::{Command, ExitStatus};
 
 use thiserror::Error;
 
 use crate::cargo::{NotStarted, cargo, target_directory};
 use crate::cross::{self, Cross, CrossError};
+use crate::pack::{self, PackError, TIME, copy, disk, set_modes, succeed};
 
 /// The package, and its program.
 const PACKAGE: &str = "vibrissa-robot";
@@ -17,9 +18,6 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 const MOST_BYTES: u64 = 8_000_000;
 /// The folder of the service files.
 const SERVICE: &str = "deploy/pi";
-/// The time (s since 1970) of all packed files, so that the same commit gives the same bytes. It is 2026-01-01.
-const TIME: &str = "1767225600";
-
 /// The files of the Debian package besides the program and `control`: their paths in the checkout and in the package.
 const FILES: [(&str, &str); 10] = [
     ("deploy/pi/vibrissa-robot.service", "usr/lib/systemd/system/vibrissa-robot.service"),
@@ -60,14 +58,13 @@ pub(crate) enum PiError {
         "the program has {0} bytes, and must have fewer than {MOST_BYTES}. See what is large:\n  cargo bloat --profile robot --package {PACKAGE} --crates"
     )]
     TooLarge(u64),
-    #[error("there is no `{program}`, which packs the files. Install it (Debian, Ubuntu: `apt-get install {package}`)")]
-    NoProgram { program: &'static str, package: &'static str },
-    #[error("cannot {action} {}: {source}", path.display())]
-    Disk { action: &'static str, path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Pack(#[from] PackError),
 }
 
 /// Builds the program, checks its size, and packs it with the service files of `deploy/pi`.
-pub(crate) fn pack(root: &Path) -> Result<(), PiError> {
+/// The result are the paths of the archive and of the package.
+pub(crate) fn pack(root: &Path) -> Result<[PathBuf; 2], PiError> {
     let target = target_directory(root);
     let program = build(root, &target)?;
     let size = fs::metadata(&program).map_err(disk("read", &program))?.len();
@@ -84,7 +81,7 @@ pub(crate) fn pack(root: &Path) -> Result<(), PiError> {
     fs::remove_dir_all(&staging).map_err(disk("clear", &staging))?;
     println!("{PACKAGE} {VERSION} for aarch64, {size} bytes:\n  {}\n  {}", archive.display(), package.display());
     println!("{SERVICE}/README.md says how to install it.");
-    Ok(())
+    Ok([archive, package])
 }
 
 /// Builds the program and gives its path.
@@ -109,15 +106,7 @@ fn archive(root: &Path, program: &Path, folder: &Path, staging: &Path) -> Result
     for (from, to) in ARCHIVED {
         copy(&root.join(from), &files.join(to))?;
     }
-    set_modes(&files)?;
-    let path = folder.join(format!("{name}.tar.gz"));
-    let mut command = Command::new("tar");
-    command.args(["--sort=name", "--owner=0", "--group=0", "--numeric-owner", "--format=gnu"]);
-    // gzip by itself would write the time of packing.
-    command.arg(format!("--mtime=@{TIME}")).args(["--use-compress-program", "gzip -9 --no-name"]);
-    command.arg("--create").arg("--file").arg(&path).arg("--directory").arg(staging).arg(&name);
-    succeed(&mut command, "tar", "tar")?;
-    Ok(path)
+    Ok(pack::archive(staging, &name, folder)?)
 }
 
 /// Writes the Debian package.
@@ -145,36 +134,6 @@ fn package(root: &Path, program: &Path, folder: &Path, staging: &Path) -> Result
 /// The control file of the Debian package, for a program of this size (bytes). The other files are small.
 fn control(text: &str, size: u64) -> String {
     text.replace("@VERSION@", VERSION).replace("@KIB@", &size.div_ceil(1024).to_string())
-}
-
-/// Copies a file, and creates its folder.
-fn copy(from: &Path, to: &Path) -> Result<(), PiError> {
-    if let Some(folder) = to.parent() {
-        fs::create_dir_all(folder).map_err(disk("create", folder))?;
-    }
-    fs::copy(from, to).map_err(disk("read", from))?;
-    Ok(())
-}
-
-/// Sets the modes of all files, which otherwise depend on the umask of the user and of the checkout.
-fn set_modes(folder: &Path) -> Result<(), PiError> {
-    succeed(Command::new("chmod").args(["-R", "u=rwX,go=rX"]).arg(folder), "chmod", "coreutils")
-}
-
-/// Runs a program of a Debian package.
-fn succeed(command: &mut Command, program: &'static str, package: &'static str) -> Result<(), PiError> {
-    // dpkg-deb prints what it builds, which the summary says too.
-    match command.stdout(Stdio::null()).status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(PiError::Failed { program, status }),
-        Err(source) if source.kind() == io::ErrorKind::NotFound => Err(PiError::NoProgram { program, package }),
-        Err(source) => Err(PiError::Disk { action: "run", path: program.into(), source }),
-    }
-}
-
-fn disk(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> PiError {
-    let path = path.to_path_buf();
-    move |source| PiError::Disk { action, path, source }
 }
 
 #[cfg(test)]

@@ -38,6 +38,13 @@ pub(crate) enum PlaygroundError {
     NotStarted(#[from] NotStarted),
 }
 
+impl PlaygroundError {
+    /// True if the standard library is missing, so that this machine cannot build it.
+    pub(crate) fn may_be_left_out(&self) -> bool {
+        matches!(self, Self::NoLibrary)
+    }
+}
+
 /// Builds the folder. The result is its path.
 pub(crate) fn build(root: &Path) -> Result<PathBuf, PlaygroundError> {
     // As a library of Rust it has tests. Only here it is a module.

@@ -39,24 +39,26 @@ pub(crate) enum PythonError {
     Disk { action: &'static str, path: PathBuf, source: io::Error },
 }
 
+/// For what a wheel is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Build {
+    /// With what the tests of the workspace are built from.
+    Tests,
+    /// With the released program.
+    Release,
+}
+
+/// What Cargo builds for a release: the program and the library of the wheel, with the same features.
+pub(crate) const RELEASED: [&str; 5] = ["--release", "--package", "vibrissa", "--package", "vibrissa-python"];
+/// What Cargo builds for the tests.
+const TESTED: [&str; 4] = ["--workspace", "--lib", "--bins", "--examples"];
+
 /// Builds the wheel, installs it into a fresh virtual environment, and runs its tests there.
 pub(crate) fn test(root: &Path) -> Result<(), PythonError> {
     let target = target_directory(root);
     let folder = target.join("python");
-    let maturin = maturin(&folder)?;
-    let wheels = folder.join("wheels");
-    clear(&wheels)?;
-    let mut build = Command::new(&maturin);
-    build
-        .args(["build", "--quiet", "--profile", "dev", "--manifest-path", "crates/python/Cargo.toml", "--out"])
-        .arg(&wheels);
-    build.args(["--interpreter", "python3"]).current_dir(root).env("CARGO", workspace_cargo(&folder)?);
-    succeed(build, PythonError::NotBuilt)?;
-    let wheel = wheel_in(&wheels).ok_or(PythonError::NotBuilt)?;
-
-    let environment = folder.join("environment");
-    clear(&environment)?;
-    let python = make_environment(&environment)?;
+    let wheel = build(root, &folder, Build::Tests)?;
+    let python = environment(&folder.join("environment"))?;
     let all = || PACKAGES.map(OsStr::new).into_iter().chain([wheel.as_os_str()]);
     install(&python, all())?;
     // Only its library is needed, not what its viewer depends on.
@@ -69,15 +71,29 @@ pub(crate) fn test(root: &Path) -> Result<(), PythonError> {
     succeed(tests, PythonError::Failed)
 }
 
-/// The program maturin, installed into the target directory once.
-fn maturin(folder: &Path) -> Result<PathBuf, PythonError> {
-    let tools = folder.join("tools");
-    let program = tools.join("bin/maturin");
+/// Builds the wheel in a folder, and gives its path.
+pub(crate) fn build(root: &Path, folder: &Path, build: Build) -> Result<PathBuf, PythonError> {
+    let maturin = tool(&folder.join("tools"), MATURIN, "maturin")?;
+    let wheels = folder.join("wheels");
+    clear(&wheels)?;
+    let (profile, built): (&str, &[&str]) = match build {
+        Build::Tests => ("dev", &TESTED),
+        Build::Release => ("release", &RELEASED),
+    };
+    let mut command = Command::new(&maturin);
+    command.args(["build", "--quiet", "--profile", profile, "--manifest-path", "crates/python/Cargo.toml", "--out"]);
+    command.arg(&wheels).args(["--interpreter", "python3"]).current_dir(root);
+    command.env("CARGO", workspace_cargo(folder, built)?);
+    succeed(command, PythonError::NotBuilt)?;
+    wheel_in(&wheels).ok_or(PythonError::NotBuilt)
+}
+
+/// A program that pip installs into a folder once.
+pub(crate) fn tool(folder: &Path, requirement: &str, name: &str) -> Result<PathBuf, PythonError> {
+    let program = folder.join("bin").join(name);
     let version = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     if !version.is_ok_and(|status| status.success()) {
-        clear(&tools)?;
-        let python = make_environment(&tools)?;
-        install(&python, [OsStr::new(MATURIN)])?;
+        install(&environment(folder)?, [OsStr::new(requirement)])?;
     }
     Ok(program)
 }
@@ -85,12 +101,13 @@ fn maturin(folder: &Path) -> Result<PathBuf, PythonError> {
 /// A script that stands for Cargo. maturin builds a package alone, whose dependencies have fewer features than in the
 /// workspace, so that all of them would be compiled once more. The script builds the package with the workspace, with the
 /// dependencies of the tests.
-fn workspace_cargo(folder: &Path) -> Result<PathBuf, PythonError> {
+fn workspace_cargo(folder: &Path, built: &[&str]) -> Result<PathBuf, PythonError> {
     let path = folder.join("cargo");
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let script = format!(
-        "#!/bin/sh\ncase \"$1\" in\nrustc) exec '{cargo}' build --workspace --lib --bins --examples --message-format \
-         json-render-diagnostics ;;\n*) exec '{cargo}' \"$@\" ;;\nesac\n"
+        "#!/bin/sh\ncase \"$1\" in\nrustc) exec '{cargo}' build {} --message-format json-render-diagnostics ;;\n\
+         *) exec '{cargo}' \"$@\" ;;\nesac\n",
+        built.join(" ")
     );
     let disk = |source| PythonError::Disk { action: "write", path: path.clone(), source };
     fs::write(&path, script).map_err(disk)?;
@@ -98,8 +115,9 @@ fn workspace_cargo(folder: &Path) -> Result<PathBuf, PythonError> {
     Ok(path)
 }
 
-/// Makes a virtual environment and gives its Python.
-fn make_environment(folder: &Path) -> Result<PathBuf, PythonError> {
+/// Makes a fresh virtual environment and gives its Python.
+pub(crate) fn environment(folder: &Path) -> Result<PathBuf, PythonError> {
+    clear(folder)?;
     let mut command = Command::new("python3");
     command.args(["-m", "venv"]).arg(folder);
     succeed(command, PythonError::NoEnvironment)?;
@@ -107,7 +125,7 @@ fn make_environment(folder: &Path) -> Result<PathBuf, PythonError> {
 }
 
 /// Installs packages by pip, with the settings of the user.
-fn install<'a>(python: &Path, packages: impl IntoIterator<Item = &'a OsStr>) -> Result<(), PythonError> {
+pub(crate) fn install<'a>(python: &Path, packages: impl IntoIterator<Item = &'a OsStr>) -> Result<(), PythonError> {
     let packages: Vec<_> = packages.into_iter().collect();
     let names: Vec<_> = packages.iter().map(|name| name.to_string_lossy()).collect();
     let failed = PythonError::NotInstalled(names.join(" "));

@@ -34,7 +34,7 @@ pub struct LibraryError {
     cause: String,
 }
 
-/// The file of the library, if the program states it.
+/// The file of the library, if its place is known.
 static FILE: OnceLock<PathBuf> = OnceLock::new();
 
 /// Sets the file of MuJoCo's library, for a program whose loader does not find it. The plugin for cables is in the same
@@ -51,15 +51,32 @@ pub fn set_library(file: &Path) -> Result<(), LibrarySet> {
 #[error("another file of MuJoCo's library is set already; set it once, before the first run")]
 pub struct LibrarySet;
 
-/// The folder of the library, if the program states it.
+/// The folder of the library, if the program states it, or if it is the folder of the program.
 pub(super) fn stated_folder() -> Option<&'static Path> {
-    FILE.get().and_then(|file| file.parent())
+    file().and_then(Path::parent)
+}
+
+/// The file of the library: the stated one, or the one in the folder of the program, as in a release. `None` leaves the search to the
+/// loader.
+fn file() -> Option<&'static Path> {
+    if let (None, Some(file)) = (FILE.get(), beside_program()) {
+        // If another thread has stated a file meanwhile, that one is used.
+        let _ = FILE.set(file);
+    }
+    FILE.get().map(PathBuf::as_path)
+}
+
+/// The library in the folder of the program.
+fn beside_program() -> Option<PathBuf> {
+    let name = file_name();
+    let name = Path::new(&name).file_name()?;
+    Some(std::env::current_exe().ok()?.canonicalize().ok()?.with_file_name(name)).filter(|file| file.is_file())
 }
 
 /// The functions of the loaded library. It is never unloaded.
 static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
     let failed = |cause: libloading::Error| LibraryError { cause: loader_message(&cause) };
-    let file = FILE.get().map_or_else(|| file_name().into(), Clone::clone);
+    let file = file().map_or_else(|| file_name().into(), Path::to_path_buf);
     open(file).and_then(|library| Functions::of(&library)).map_err(failed)
 });
 
