@@ -96,11 +96,8 @@ pub(super) enum Failure {
     #[error("--break ends a run, and --watch begins the next one; add --live, whose page shows the breakpoints")]
     BreakWatch,
     #[cfg(feature = "live")]
-    #[error(
-        "{}: it is the recording of a robot, which the page cannot show; record a simulated run with `vibrissa run SCENARIO --record FILE`",
-        path.display()
-    )]
-    NoLiveReplay { path: PathBuf },
+    #[error("{}: it does not compile to the recorded machine; give the text of the policy that ran", path.display())]
+    OtherMachine { path: PathBuf },
     #[cfg(feature = "live")]
     #[error("{}: the recorded run had another scenario; give the file that it ran", path.display())]
     OtherScenario { path: PathBuf },
@@ -227,8 +224,8 @@ pub(super) enum Failure {
     #[error("--view: {0}")]
     Window(#[from] WindowError),
     #[cfg(feature = "recording")]
-    #[error("{}: it is the recording of a robot, whose steps another policy cannot repeat; leave out --policy", path.display())]
-    OtherPolicy { path: PathBuf },
+    #[error("{}: {reason}", path.display())]
+    OtherPolicy { path: PathBuf, reason: &'static str },
     #[cfg(feature = "recording")]
     #[error("{}: it has no text of its policy, because a compiled machine was recorded; record a run of the policy itself", path.display())]
     NoRecordedText { path: PathBuf },

@@ -32,7 +32,10 @@ use {
     std::sync::Arc,
     vibrissa_lab::built_in::SCENARIOS,
     vibrissa_lab::load::Loaded,
+    vibrissa_lab::recording::SampledRun,
     vibrissa_lab::trial::{Trial, short_hash},
+    vibrissa_runtime::machine::Program,
+    vibrissa_text::diagnostic::Source,
     vibrissa_world::scene::{Scene, WorldKind, WorldSetup},
 };
 
@@ -46,12 +49,12 @@ pub(super) struct ReplayArguments {
     #[arg(value_name = "FILE", required = true)]
     recording: Vec<PathBuf>,
     /// Give the samples of a recorded run to this policy as well, and report the first tick in which its command differs from that of
-    /// the recorded policy
+    /// the recorded policy. With `--live`: the text of the machine that the robot ran, so that the page shows its guards
     #[cfg(feature = "recording")]
-    #[cfg_attr(feature = "live", arg(long, value_name = "FILE", conflicts_with = "live"))]
-    #[cfg_attr(not(feature = "live"), arg(long, value_name = "FILE"))]
+    #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
-    /// Scenario of the recorded run, so that the page knows the objects and can simulate the run again. Those of the bench are known
+    /// Scenario of the recorded run, so that the page knows the objects and can simulate the run again. Those of the bench are known.
+    /// For a real robot: a scenario with the objects that it touched
     #[cfg(feature = "live")]
     #[arg(long, value_name = "FILE", requires = "live")]
     scenario: Option<PathBuf>,
@@ -71,27 +74,45 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
         if let Some(run) = run_recording(named, &mut files)? {
             #[cfg(feature = "live")]
             if let Some(live) = arguments.live.start(Speed::Max, &[])? {
-                return show(named, &run, arguments, &mut files, &live);
+                if arguments.policy.is_some() && run.policy().is_some() {
+                    let reason =
+                        "the page shows the recorded policy; leave out --policy, or compare policies without --live";
+                    return Err(Failure::OtherPolicy { path: named.to_owned(), reason });
+                }
+                show(named, SampledRun::from(&run), arguments, &mut files, &live)?;
+                replay_run(named, &run, None, arguments, &mut files)?;
+                serve_on(&live)
             }
-            return replay_run(named, &run, arguments, &mut files);
+            return replay_run(named, &run, arguments.policy.as_deref(), arguments, &mut files);
         }
         #[cfg(feature = "live")]
-        if arguments.live.is_asked_for() {
-            return Err(Failure::NoLiveReplay { path: named.to_owned() });
+        if let Some(live) = arguments.live.start(Speed::Max, &[])? {
+            let (recorded, replayed) =
+                SampledRun::of_robot(load::recording(paths, &mut files)?).map_err(LoadError::recording(named))?;
+            let result = ReplayResult::new(recorded.identity.clone(), &replayed);
+            show(named, recorded, arguments, &mut files, &live)?;
+            print_replay(named, &result, arguments.format)?;
+            serve_on(&live)
         }
         if arguments.policy.is_some() {
-            return Err(Failure::OtherPolicy { path: named.to_owned() });
+            let reason = "it is the recording of a robot, whose steps another policy cannot repeat; leave out --policy, or add --live \
+                          to see the guards of the policy that ran";
+            return Err(Failure::OtherPolicy { path: named.to_owned(), reason });
         }
     }
     let recording = load::recording(paths, &mut files)?;
     let identity = recording.identity().clone();
     let replayed = recording::replay(recording).map_err(LoadError::recording(named))?;
-    let result = ReplayResult::new(identity, &replayed);
+    print_replay(named, &ReplayResult::new(identity, &replayed), arguments.format)
+}
+
+/// Prints how the replay of a robot's loop has ended.
+fn print_replay(named: &Path, result: &ReplayResult, format: Format) -> Result<Exit, Failure> {
     if result.is_cut {
         let (path, end) = (named.display(), result.end_s);
         output::message(format_args!("warning: {path}: its end is missing; it was replayed until {end:.3} s"));
     }
-    output::document(arguments.format, &provenance(), &result, || replay_tables(&result))?;
+    output::document(format, &provenance(), result, || replay_tables(result))?;
     Ok(if result.difference.is_none() { Exit::Done } else { Exit::Unexpected })
 }
 
@@ -100,10 +121,11 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
 fn replay_run(
     path: &Path,
     run: &RunRecording,
+    policy: Option<&Path>,
     arguments: &ReplayArguments,
     files: &mut CommandFiles,
 ) -> Result<Exit, Failure> {
-    let Some(policy) = &arguments.policy else {
+    let Some(policy) = policy else {
         let result = vibrissa_lab::recording::replay(run).map_err(Failure::run_recording(path))?;
         output::document(arguments.format, &provenance(), &result, || replay_tables(&result))?;
         return Ok(if result.difference.is_none() { Exit::Done } else { Exit::Unexpected });
@@ -115,37 +137,54 @@ fn replay_run(
     Ok(if difference.first.is_none() { Exit::Done } else { Exit::Unexpected })
 }
 
-/// Replays a simulated run on a page, and compares it then.
+/// Replays a recorded run on a page.
 #[cfg(feature = "live")]
 fn show(
     path: &Path,
-    run: &RunRecording,
+    mut recorded: SampledRun,
     arguments: &ReplayArguments,
     files: &mut CommandFiles,
     live: &Live,
-) -> Result<Exit, Failure> {
-    let replay = LiveReplay::new(run);
-    let known = recorded_trial(run, arguments.scenario.as_deref(), files)?;
-    let mut watcher = begin(live, replay.setup(known), || false)?;
+) -> Result<(), Failure> {
+    if let Some(policy) = &arguments.policy {
+        recorded.policy = Some(recorded_policy(&recorded, policy, files)?);
+    }
+    let scene = recorded_scene(&recorded, arguments.scenario.as_deref(), files)?;
+    let trial = scene.as_ref().and_then(|scene| recorded_trial(&recorded, scene));
+    let replay = LiveReplay::new(&recorded);
+    let mut watcher = begin(live, replay.setup(scene, trial), || false)?;
     let replayed = replay.run(&mut watcher).map_err(|cause| Failure::run_recording(path)(cause.into()))?;
     if let Some(replayed) = replayed {
         watcher.finish_unjudged(&replayed);
     }
-    replay_run(path, run, arguments, files)?;
-    serve_on(live)
+    Ok(())
 }
 
-/// The trial of a recording, if its scenario is given or one of the bench. `None` if it is not known.
+/// The text of the recorded machine, whose parameters may have other values.
 #[cfg(feature = "live")]
-fn recorded_trial(
-    run: &RunRecording,
+fn recorded_policy(recorded: &SampledRun, path: &Path, files: &mut CommandFiles) -> Result<Source, Failure> {
+    let policy = load::policy(path, files)?.value;
+    let program = policy.artifact.program;
+    let own = Program { initial_registers: program.initial_registers.clone(), ..(*recorded.program).clone() };
+    let text = policy.text.filter(|_| own == program).map(|text| text.source);
+    text.ok_or_else(|| Failure::OtherMachine { path: path.to_owned() })
+}
+
+/// The scene of a recording, if its scenario is given or one of the bench. `None` if it is not known.
+#[cfg(feature = "live")]
+fn recorded_scene(
+    recorded: &SampledRun,
     given: Option<&Path>,
     files: &mut CommandFiles,
-) -> Result<Option<Trial>, Failure> {
-    let identity = |key: &str| run.identity().get(key).map_or("", String::as_str);
+) -> Result<Option<Scene>, Failure> {
+    // Nobody has recorded which objects a real robot touched.
+    let Some(recorded) = recorded.identity.get("scenario_hash") else {
+        let scene = given.map(|path| load::scenario(path, files)).transpose()?;
+        return Ok(scene.map(|loaded| loaded.value));
+    };
     let is_recorded = |loaded: &Loaded<Scene>| {
         let hashes = [loaded.hash.clone(), loaded.hash.clone().chain_update(load::UNCALIBRATED)];
-        hashes.iter().any(|hash| short_hash(&hash.clone().finalize()) == identity("scenario_hash"))
+        hashes.iter().any(|hash| short_hash(&hash.clone().finalize()) == *recorded)
     };
     let loaded = match given {
         Some(path) => {
@@ -157,15 +196,21 @@ fn recorded_trial(
         }
         None => SCENARIOS.iter().find_map(|file| load::built_in_scenario(file).ok().filter(is_recorded)),
     };
-    let Some(Loaded { value: scene, .. }) = loaded else { return Ok(None) };
-    let Some(kind) = WorldKind::named(identity("world")) else { return Ok(None) };
+    Ok(loaded.map(|loaded| loaded.value))
+}
+
+/// The trial of a recorded run of this scene. `None` if the simulator or its version is another one.
+#[cfg(feature = "live")]
+fn recorded_trial(recorded: &SampledRun, scene: &Scene) -> Option<Trial> {
+    let identity = |key: &str| recorded.identity.get(key).map_or("", String::as_str);
+    let kind = WorldKind::named(identity("world"))?;
     let trial = Trial {
-        assumed_rig: run.rig().clone(),
+        assumed_rig: recorded.rig.clone(),
         seed: identity("seed").parse().unwrap_or(scene.seed),
-        ..Trial::new(scene, Arc::new(run.program().clone()))
+        ..Trial::new(scene.clone(), Arc::clone(&recorded.program))
     };
     let worlds = [true, false].map(|prune| Trial { world: WorldSetup { kind, prune }, ..trial.clone() });
-    Ok(worlds.into_iter().find(|trial| trial.identity().hash.engine == identity("engine_hash")))
+    worlds.into_iter().find(|trial| trial.identity().hash.engine == identity("engine_hash"))
 }
 
 /// Reads the recording of a simulated run. `None` if the file is no such recording.

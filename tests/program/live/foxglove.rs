@@ -22,6 +22,7 @@ fn a_viewer_subscribes_and_decodes_messages() {
     for channel in advertised["channels"].as_array().unwrap() {
         channels.insert(channel["topic"].as_str().unwrap().to_owned(), channel.clone());
     }
+    shows_these(&channels);
     let [ticks, scene] = ["ticks", "scene"].map(|topic| channels[topic].clone());
     assert_eq!((&ticks["encoding"], &ticks["schemaEncoding"]), (&"json".into(), &"jsonschema".into()));
     assert_eq!((&scene["encoding"], &scene["schemaName"]), (&"protobuf".into(), &"foxglove.SceneUpdate".into()));
@@ -44,4 +45,39 @@ fn a_viewer_subscribes_and_decodes_messages() {
         times.push(time);
     }
     assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
+}
+
+/// The layout for viewers has topics and keys of the channels.
+fn shows_these(channels: &BTreeMap<String, Value>) {
+    let layout: Value = serde_json::from_str(include_str!("../../../deploy/viewers/foxglove.json")).unwrap();
+    let panels = layout["configById"].as_object().unwrap();
+    let mut paths: Vec<String> = panels["3D!scene"]["topics"].as_object().unwrap().keys().cloned().collect();
+    paths.push(panels["RawMessages!guards"]["topicPath"].as_str().unwrap().to_owned());
+    for panel in ["StateTransitions!states", "Plot!angles"] {
+        let shown = panels[panel]["paths"].as_array().unwrap();
+        paths.extend(shown.iter().map(|path| path["value"].as_str().unwrap().replace("[:]", "")));
+    }
+    for path in &paths {
+        let mut keys = path.split('.');
+        let channel = &channels[keys.next().unwrap()];
+        let schema = || serde_json::from_str::<Value>(channel["schema"].as_str().unwrap()).unwrap();
+        let found = keys.try_fold((schema(), schema()), |(schema, root), key| {
+            let inner = schema["properties"].get(key)?.clone();
+            let items = inner.get("items").cloned().unwrap_or(inner);
+            let name = items["$ref"].as_str().and_then(|place| place.strip_prefix("#/$defs/")).map(str::to_owned);
+            Some((name.map_or(items, |name| root["$defs"][name].clone()), root))
+        });
+        assert!(found.is_some(), "{path}");
+    }
+    let mut placed: Vec<_> = panels_of(&layout["layout"]).collect();
+    placed.sort();
+    assert_eq!(placed, panels.keys().cloned().collect::<Vec<_>>());
+}
+
+/// The panels in a part of a layout.
+fn panels_of(part: &Value) -> Box<dyn Iterator<Item = String> + '_> {
+    match part.as_str() {
+        Some(panel) => Box::new(std::iter::once(panel.to_owned())),
+        None => Box::new(["first", "second"].into_iter().flat_map(|key| panels_of(&part[key]))),
+    }
 }

@@ -204,3 +204,37 @@ fn a_run_of_the_robots_loop_shows_its_guards() {
     let result = session.json();
     assert_eq!(result["run"]["outcome"], status["verdict"], "{result}");
 }
+
+#[test]
+fn the_recording_of_a_robot_shows_what_the_robot_did_with_the_text_of_its_machine() {
+    let folder = folder("live-robot");
+    let driven = ["drive", "policy.fsm", "--emulate", "scene.yaml", "--record", "robot.mcap", "--json"];
+    let watched = ["--live", "--live-speed", "max", "--paused"];
+    let shown = |words: &[&str]| {
+        let session = Session::start(&folder, words);
+        let (mut page, hello) = session.page();
+        page.send(&json!({"type": "run"}));
+        let (_, ticks) = page.until_status("finished");
+        (session.json(), hello, ticks.frames)
+    };
+    let driven = shown(&[&driven[..], &watched].concat());
+    let replayed = ["replay", "robot.mcap", "--policy", "policy.fsm", "--scenario", "scene.yaml", "--json"];
+    let replayed = shown(&[&replayed[..], &watched].concat());
+    assert!(replayed.0["difference"].is_null(), "{}", replayed.0);
+    assert_eq!(replayed.1["scene"], driven.1["scene"]);
+    assert!(!driven.2.is_empty() && driven.2.len() == replayed.2.len());
+    for (driven, replayed) in driven.2.iter().zip(&replayed.2) {
+        for key in ["states", "command", "guards", "plots"] {
+            assert_eq!(driven[key], replayed[key], "{key} at {}", driven["time"]);
+        }
+    }
+
+    let text = fs::read_to_string(folder.join("policy.fsm")).unwrap();
+    fs::write(folder.join("other.fsm"), text.replacen("when ", "when 1 > 0 and ", 1)).unwrap();
+    let words = ["replay", "robot.mcap", "--live", "--policy", "other.fsm"];
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa")).args(words).current_dir(&folder).output();
+    let output = output.unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("other.fsm: it does not compile to the recorded machine"), "{told}");
+}

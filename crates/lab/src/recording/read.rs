@@ -6,8 +6,7 @@ use std::io::Read;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use vibrissa_robot::recording::{Attachment, FileMessage, FileRecord, Records};
-use vibrissa_runtime::machine::{Artifact, Program};
-use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::machine::Artifact;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Sample};
 
 use super::channel::JsonChannel;
@@ -108,24 +107,6 @@ impl RunRecording {
     #[must_use]
     pub fn policy(&self) -> Option<&Source> {
         self.setup.policy.as_ref()
-    }
-
-    /// The rig that control assumes.
-    #[must_use]
-    pub fn rig(&self) -> &Rig {
-        &self.setup.rig
-    }
-
-    /// The machine with the parameters of the run.
-    #[must_use]
-    pub fn program(&self) -> &Program {
-        &self.artifact.program
-    }
-
-    /// The samples before each tick.
-    #[must_use]
-    pub fn samples(&self) -> &[Vec<Sample>] {
-        &self.samples
     }
 
     /// Names and hashes that identify the run.

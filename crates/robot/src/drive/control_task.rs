@@ -78,7 +78,7 @@ impl ControlTask {
         outputs: Outputs,
         vitals: Arc<Vitals>,
     ) -> Self {
-        control.keep_for(config.timeouts.sensor + STOPPING);
+        control.keep_for(kept_for(config));
         Self {
             control,
             zeroing: Some(assembler.zeroing()),
@@ -224,6 +224,12 @@ impl ControlTask {
         }
         self.outputs.records.send(&LoopRecord::Tick(report));
     }
+}
+
+/// For how long (s) the control of a robot keeps base angles and the pose over ticks without a valid one.
+#[must_use]
+pub fn kept_for(config: &Config) -> f64 {
+    config.timeouts.sensor + STOPPING
 }
 
 /// Longest time (ns) over which a pose is extrapolated. Until the supervisor has stopped the machine, it always has one.

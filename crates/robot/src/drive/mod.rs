@@ -8,7 +8,7 @@ mod schedule;
 mod supervisor;
 mod violations;
 
-pub use control_task::{ControlTask, Inputs, Outputs, Started};
+pub use control_task::{ControlTask, Inputs, Outputs, Started, kept_for};
 pub use loop_record::{LoopRecord, RecordSender, Records, StepInput, TimedMessage, Violation, record_queues};
 pub use record_sink::RecordSink;
 pub use report::TickReport;

@@ -46,7 +46,7 @@ pub use program_file::program_sha256;
 pub use recorder::{Recorder, Warn};
 pub use recording::Recording;
 pub use records::{FileMessage, FileRecord, Records};
-pub use replay::{Replayed, replay};
+pub use replay::{Replayed, replay, replay_observed};
 pub use setup::{Origin, Setup, SetupError, sha256};
 #[cfg(feature = "mqtt")]
 pub(crate) use step_message::{PoseMessage, RoundMessage};

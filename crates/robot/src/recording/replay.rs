@@ -10,6 +10,7 @@ use super::replay_task::{ReplayTask, Stepped};
 use super::step_message::StepMessage;
 use super::tick_message::{EventMessage, TickMessage};
 use crate::fault::FaultEvent;
+use vibrissa_runtime::signal::Sample;
 
 /// The result of a replay.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -32,12 +33,31 @@ pub struct Replayed {
 ///
 /// # Errors
 /// [`ReadError`] if the recording cannot be read, or if it does not have every input from the start of the run.
-pub fn replay<R: Read>(mut recording: Recording<R>) -> Result<Replayed, ReadError> {
+pub fn replay<R: Read>(recording: Recording<R>) -> Result<Replayed, ReadError> {
+    replay_observed(recording, |_| {})
+}
+
+/// Replays a recording as [`replay`] does. `observe` receives the samples of each tick in which the machine ran, oldest first.
+///
+/// # Errors
+/// Those of [`replay`].
+pub fn replay_observed<R: Read>(
+    mut recording: Recording<R>,
+    mut observe: impl FnMut(&[Sample]),
+) -> Result<Replayed, ReadError> {
     let task = ReplayTask::new(recording.setup())?;
     let mut replay = Replay { task, last: None, result: Replayed::default() };
     while let Some(message) = recording.next_message()? {
         let found = match message.channel {
-            Channel::Steps => replay.step(&message)?,
+            Channel::Steps => {
+                let found = replay.step(&message)?;
+                if let Some(Stepped::Tick(report)) = &replay.last
+                    && !report.is_paused
+                {
+                    observe(replay.task.samples());
+                }
+                found
+            }
             Channel::Ticks => replay.tick(&message)?,
             Channel::Events => {
                 let event: EventMessage = read(&message)?;

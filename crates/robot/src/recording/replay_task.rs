@@ -6,6 +6,7 @@ use std::sync::atomic::Ordering;
 use rtrb::{Consumer, Producer, RingBuffer};
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::signal::Sample;
 
 use super::difference::{FieldDifference, first_difference};
 use super::error::ReadError;
@@ -95,6 +96,11 @@ impl ReplayTask {
             (Some(Ok(_)), Some(report)) => Stepped::Tick(report),
             (Some(Ok(_)), None) => Stepped::Zeroing,
         })
+    }
+
+    /// The samples of the newest step, oldest first.
+    pub(super) fn samples(&self) -> &[Sample] {
+        self.task.samples()
     }
 
     fn take_round(&mut self, index: usize, message: &RoundMessage) -> Result<(), FieldDifference> {
