@@ -53,7 +53,7 @@ const YOUNG_OVER_SHEAR: f64 = 2.6;
 /// - the keyframe `start`
 #[must_use]
 pub fn mjcf(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> String {
-    mjcf_within(rig, physics, solids, start, &Scope::whole(rig, solids))
+    mjcf_within(&rig.vibrating(), physics, solids, start, &Scope::whole(rig, solids))
 }
 
 /// Writes the part of the model that is in `scope`. A rigid whisker is one body without joints and geoms. The other

@@ -93,6 +93,7 @@ impl MujocoWorld {
         capacity: Option<usize>,
     ) -> Result<Self, MujocoError> {
         prepare_engine()?;
+        let rig = &rig.vibrating();
         for whisker in &rig.whiskers {
             if let Some(share) = light_shaft(&whisker.shaft) {
                 return Err(MujocoError::Light { whisker: whisker.name.clone(), share });

@@ -4,6 +4,7 @@
 mod cable;
 mod explain;
 #[cfg(feature = "sim")]
+mod first_mode;
 mod friction;
 #[cfg(feature = "sim")]
 mod pruning;

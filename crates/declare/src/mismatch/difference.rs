@@ -14,6 +14,8 @@ pub enum Change {
     Relative,
     /// The value is added.
     Added,
+    /// The value replaces the number. It is drawn with uniform density of its logarithm, because it is positive.
+    Replaced,
 }
 
 impl Change {
@@ -22,6 +24,7 @@ impl Change {
         match self {
             Self::Relative => *number *= 1.0 + value,
             Self::Added => *number += value,
+            Self::Replaced => *number = value,
         }
     }
 
@@ -29,6 +32,7 @@ impl Change {
         match self {
             Self::Relative => "relative difference from the key of the rig",
             Self::Added => "difference from the key of the rig",
+            Self::Replaced => "true value of the key of the rig, drawn by its logarithm",
         }
     }
 }
@@ -93,6 +97,12 @@ impl Difference {
         Self { example, about, ..self }
     }
 
+    /// True if the logarithm of a value is drawn with uniform density, and not the value.
+    #[must_use]
+    pub fn is_logarithmic(&self) -> bool {
+        matches!(self.of, Some((_, Change::Replaced)))
+    }
+
     /// The key with its range.
     #[must_use]
     pub fn key(&self) -> Key {
@@ -147,7 +157,7 @@ pub const DIFFERENCES: [Difference; 27] = [
     D::age(P::PoseLatency, "pose.latency").of_array().about("10 ms", "age of a pose in its sample"),
     D::age(P::CommandLatency, "command.latency").of_array().about("33 ms", "time from a command to its effect, rounded to sample periods"),
     D::new(P::Servo, "servo", Dimension::TIME, (1e-3, 10.0)).of_array()
-        .about("100 ms", "true time constant of the servos, for velocities and yaw rates"),
+        .about("100 ms", "true time constant of the servos, for velocities, and for yaw rates without `yaw_servo`"),
     D::new(P::Friction, "friction", Dimension::NUMBER, (0.0, 10.0)).of_array()
         .about("0.1", "true coefficient of friction of all objects. Steps and contacts of the simulation become as short as friction needs"),
 ];

@@ -180,11 +180,11 @@ impl RigKey {
     pub fn apply<T: Part>(&self, part: &mut T, change: Change, value: f64) {
         match T::access(self.place) {
             Some(Access::Number(field)) => change.apply(field(part), value),
-            Some(Access::Optional(field)) => {
-                if let Some(number) = field(part) {
-                    change.apply(number, value);
-                }
-            }
+            Some(Access::Optional(field)) => match field(part) {
+                Some(number) => change.apply(number, value),
+                missing if change == Change::Replaced => *missing = Some(value),
+                None => {}
+            },
             _ => {}
         }
     }
@@ -195,7 +195,7 @@ impl RigKey {
         let (change, range, example) = self.change?;
         let (path, scope) = match self.path.strip_prefix(super::OF_A_WHISKER) {
             Some(path) => (path, Scope::Whisker),
-            None => (self.path, Scope::Array),
+            None => (self.path.split_once('.').map_or(self.path, |(_, name)| name), Scope::Array),
         };
         let dimension = if change == Change::Relative { Dimension::NUMBER } else { self.dimension };
         let (property, about, of) = (Property::Rig(self.path), change.about(), Some((self.path, change)));

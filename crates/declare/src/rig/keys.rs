@@ -29,7 +29,7 @@ pub static KEYS: &[RigKey] = &[
         "moment of inertia about the vertical axis through the centre of mass"),
     K::new("platform.servo", Platform(Number(|it| &mut it.servo)), D::TIME, (1e-3, 10.0), "50 ms", "time constant of the servos, for velocities"),
     K::new("platform.yaw_servo", Platform(Optional(|it| &mut it.yaw_servo)), D::TIME, (1e-3, 10.0), "50 ms",
-        "time constant of the servos for yaw rates. Without it, it is that of `servo`"),
+        "time constant of the servos for yaw rates. Without it, it is that of `servo`").differs(Change::Replaced, (1e-3, 10.0), "20 ms"),
     K::new("platform.speed_limit", Platform(Number(|it| &mut it.speed_limit)), D::SPEED, (1e-3, 100.0), "1 m/s", "largest speed of a command"),
     K::new("platform.yaw_rate_limit", Platform(Number(|it| &mut it.yaw_rate_limit)), D::ANGULAR_SPEED, (1e-3, 100.0), "180 deg/s",
         "largest yaw rate of a command"),
@@ -64,6 +64,12 @@ pub static KEYS: &[RigKey] = &[
         "damping of the hinge"),
     K::new("whiskers.*.hinge.armature", Whisker(Number(|it| &mut it.hinge.armature)), D::INERTIA, (0.0, 1.0), "1e-5 kg m^2",
         "moment of inertia of the moving part of the hinge"),
+    K::new("whiskers.*.first_mode", Whisker(Optional(|it| &mut it.first_mode)), D::FREQUENCY, (0.1, 1e4), "8.6 Hz",
+        "frequency of the [first mode](worlds.md#first-mode) of the free whisker. Without it, it is that of the mechanics")
+        .differs(Change::Replaced, (0.1, 1e4), "8.6 Hz"),
+    K::new("whiskers.*.decay", Whisker(Optional(|it| &mut it.decay)), D::TIME, (1e-4, 1e3), "0.3 s",
+        "time in which the amplitude of this mode decreases to 1/e. Without it, it is that of the mechanics")
+        .differs(Change::Replaced, (1e-4, 1e3), "0.3 s"),
     K::other("whiskers.*.calibration", Whisker(Calibration(|it| &mut it.calibration)), "r0.yaml",
         "[calibration](calibration.md) that perception uses: the path of a file, or its values"),
     K::new("physics.step", InPhysics(Number(|it| &mut it.step)), D::TIME, (1e-6, 1.0), "3.33 ms", "step of the simulation"),
@@ -77,7 +83,8 @@ pub static KEYS: &[RigKey] = &[
         "longest step while no whisker moves fast"),
     K::other("physics.rigid_in_air", InPhysics(Flag(|it| &mut it.rigid_in_air)), "true",
         "true if a whisker at rest and out of reach of all objects is simulated as rigid"),
-    K::new("physics.contact_time", InPhysics(Number(|it| &mut it.contact_time)), D::TIME, (1e-6, 1.0), "3.33 ms", "time constant of contacts"),
+    K::new("physics.contact_time", InPhysics(Number(|it| &mut it.contact_time)), D::TIME, (1e-6, 1.0), "3.33 ms", "time constant of contacts")
+        .differs(Change::Relative, (0.0, 100.0), "100 %"),
     K::new("physics.contact_impedance", InPhysics(Triple(|it| &mut it.contact_impedance, D::LENGTH, (1e-9, 0.1))), D::NUMBER, (1e-4, 0.9999), "[0.95, 0.99, 0.1 mm]",
         "impedance of contacts at the surface and at full depth, and the full depth"),
     K::new("physics.friction", InPhysics(Number(|it| &mut it.friction)), D::NUMBER, (0.0, 10.0), "0.3", "coefficient of friction of all surfaces"),

@@ -24,6 +24,7 @@ const PIECES: usize = 100;
 impl Inertia {
     /// Creates the inertia of `whisker`.
     pub(super) fn new(whisker: &Whisker) -> Self {
+        let whisker = whisker.vibrating();
         let shaft = &whisker.shaft;
         let (mut first, mut second) = (0.0, 0.0);
         for piece in 0..PIECES {

@@ -45,6 +45,12 @@ pub struct UnknownWhisker {
 }
 
 impl Rig {
+    /// The rig whose whiskers have [the masses and the damping](Whisker::vibrating) of their first modes.
+    #[must_use]
+    pub fn vibrating(&self) -> Self {
+        Self { whiskers: self.whiskers.iter().map(Whisker::vibrating).collect(), ..self.clone() }
+    }
+
     /// Returns the indices of the whiskers with these names, in their order.
     ///
     /// # Errors

@@ -1,6 +1,9 @@
 //! The first mode in which a free whisker vibrates.
 
+use std::f64::consts::TAU;
+
 use super::Whisker;
+use crate::math;
 
 /// Steps of the iteration for the mode. The second mode has a frequency at least four times higher, so each step reduces its share
 /// by a factor of 16 or more.
@@ -16,12 +19,58 @@ pub struct Vibration {
 }
 
 impl Vibration {
-    /// The first mode of the chain of links that the simulators use.
-    ///
-    /// The inertial forces of a shape bend the chain into the next shape (Stodola's method). The frequency and the decay then follow
-    /// from Rayleigh's quotient: stiffness, damping and mass of the shape. A link is a mass at its centre.
+    /// The first mode of a whisker: the one that is stated, or else that of the chain of links that the simulators use.
     #[must_use]
     pub fn of(whisker: &Whisker) -> Self {
+        let vibrating = whisker.vibrating();
+        let Shape { stiffness, mass, damping_of_hinge, of_shaft } = Shape::of(&vibrating);
+        let damping = damping_of_hinge + vibrating.shaft.damping * of_shaft;
+        Self { frequency: (stiffness / mass).sqrt(), decay: 2.0 * mass / damping }
+    }
+}
+
+impl Whisker {
+    /// The whisker with the masses and the damping of the shaft that give its mechanics the stated first mode and decay.
+    ///
+    /// All masses change by the same factor, so the shape of the mode stays the same. The hinge keeps its damping, which
+    /// hardly contributes to that of the mode and delays readings.
+    #[must_use]
+    pub fn vibrating(&self) -> Self {
+        let mut whisker = self.clone();
+        if self.first_mode.is_none() && self.decay.is_none() {
+            return whisker;
+        }
+        let Shape { stiffness, mut mass, damping_of_hinge, of_shaft } = Shape::of(self);
+        if let Some(frequency) = self.first_mode {
+            let factor = stiffness / (mass * math::square(TAU * frequency));
+            whisker.shaft.density *= factor;
+            whisker.hinge.armature *= factor;
+            mass *= factor;
+        }
+        if let Some(decay) = self.decay {
+            whisker.shaft.damping = math::max(2.0 * mass / decay - damping_of_hinge, 0.0) / of_shaft;
+        }
+        (whisker.first_mode, whisker.decay) = (None, None);
+        whisker
+    }
+}
+
+/// The shape of the first mode, by what Rayleigh's quotient needs: sums over all parts of the chain, for one amplitude.
+struct Shape {
+    /// Stiffness (N m) of shaft and hinge.
+    stiffness: f64,
+    /// Mass (kg m²).
+    mass: f64,
+    /// Damping (N m s) of the hinge.
+    damping_of_hinge: f64,
+    /// Stiffness (N m) of the shaft, to which its damping is proportional.
+    of_shaft: f64,
+}
+
+impl Shape {
+    /// The inertial forces of a shape bend the chain into the next shape (Stodola's method). A link is a mass at its
+    /// centre.
+    fn of(whisker: &Whisker) -> Self {
         let (shaft, hinge) = (&whisker.shaft, &whisker.hinge);
         let length = shaft.link_length();
         let masses: Vec<_> = (0..shaft.links).map(|link| shaft.link_mass(link)).collect();
@@ -49,8 +98,10 @@ impl Vibration {
         let mass = hinge.armature * of_hinge
             + masses.iter().zip(moved).map(|(mass, offset)| mass * offset * offset).sum::<f64>();
         Self {
-            frequency: ((hinge.stiffness * of_hinge + of_shaft) / mass).sqrt(),
-            decay: 2.0 * mass / (hinge.damping * of_hinge + shaft.damping * of_shaft),
+            stiffness: hinge.stiffness * of_hinge + of_shaft,
+            mass,
+            damping_of_hinge: hinge.damping * of_hinge,
+            of_shaft,
         }
     }
 }
@@ -82,7 +133,6 @@ fn moments(masses: &[f64], offsets: &[f64], length: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math;
     use crate::rig::{Hinge, Rig, Shaft};
 
     fn whisker(shaft: Shaft, hinge: Hinge) -> Whisker {
@@ -139,6 +189,30 @@ mod tests {
             let decay = 2.0 / (shaft.damping * found.frequency * found.frequency);
             assert!((found.decay / decay - 1.0).abs() < 1e-6, "{found:?} and {decay}");
         }
+    }
+
+    #[test]
+    fn a_stated_mode_is_that_of_the_mechanics() {
+        let shafts = [Shaft::default(), Shaft { tip_radius: Some(0.05e-3), length: 0.14, ..Shaft::default() }];
+        for shaft in shafts {
+            for (frequency, decay) in [(4.0, 0.004), (8.6, 0.3), (14.0, 3.0)] {
+                let mut stated = whisker(shaft.clone(), Hinge::default());
+                (stated.first_mode, stated.decay) = (Some(frequency), Some(decay));
+                for found in [Vibration::of(&stated), Vibration::of(&stated.vibrating())] {
+                    assert!((found.frequency / TAU / frequency - 1.0).abs() < 1e-9, "{found:?}");
+                    assert!((found.decay / decay - 1.0).abs() < 1e-9, "{found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_frequency_alone_keeps_the_damping_of_the_material() {
+        let mut slow = whisker(Shaft::default(), Hinge::default());
+        slow.first_mode = Some(5.0);
+        assert_eq!(slow.vibrating().shaft.damping.to_bits(), slow.shaft.damping.to_bits());
+        slow.first_mode = None;
+        assert_eq!(slow.vibrating(), slow);
     }
 
     #[test]

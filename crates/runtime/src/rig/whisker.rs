@@ -27,6 +27,12 @@ pub struct Whisker {
     pub shaft: Shaft,
     /// The base hinge. Its angle is the main reading of the sensor.
     pub hinge: Hinge,
+    /// Frequency (Hz) of the first mode of the free whisker, without damping. `None` for that of its mechanics.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_mode: Option<f64>,
+    /// Time (s) in which the amplitude of this mode decreases to 1/e. `None` for that of its mechanics.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decay: Option<f64>,
     /// Measured properties that perception uses instead of those above.
     pub calibration: Option<Calibration>,
 }
@@ -41,6 +47,8 @@ impl Whisker {
             pitch: 0.0,
             shaft: Shaft::default(),
             hinge: Hinge::default(),
+            first_mode: None,
+            decay: None,
             calibration: None,
         }
     }

@@ -23,6 +23,8 @@ pub struct TrueArray {
     pub command_latency: f64,
     /// Coefficient of sliding friction of all objects. `None` for that of the scene.
     pub friction: Option<f64>,
+    /// The values for the physics settings.
+    pub(super) values: Values,
 }
 
 /// The errors of the sensor of one whisker. Perception does not know them.
@@ -85,13 +87,14 @@ impl TrueArray {
         poses.chain(sensors).chain([self.lost]).any(|spread| spread > 0.0)
     }
 
-    /// The physics settings for the true friction.
+    /// The physics settings for the true friction and contacts.
     #[must_use]
     pub fn physics(&self, assumed: &Physics) -> Physics {
         let mut physics = assumed.clone();
         if let Some(friction) = self.friction {
             physics.set_friction(friction, self.rig.sensing.sample_rate);
         }
+        self.values.apply(&mut physics);
         physics
     }
 }

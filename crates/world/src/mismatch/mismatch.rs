@@ -92,10 +92,10 @@ impl Mismatch {
         // No whisker has this stream.
         let values = self.common.draw(&mut random(MAX_WHISKERS));
         let mut platform = assumed.platform.clone();
-        values.apply(&mut platform);
         if let Some(servo) = values.get(Property::Servo) {
             (platform.servo, platform.yaw_servo) = (servo, None);
         }
+        values.apply(&mut platform);
         TrueArray {
             rig: Rig { platform, whiskers, sensing: assumed.sensing.clone() },
             sensors,
@@ -104,6 +104,7 @@ impl Mismatch {
             pose: PoseErrors::new(&values),
             command_latency: values.or_zero(Property::CommandLatency),
             friction: values.get(Property::Friction),
+            values,
         }
     }
 
@@ -168,16 +169,18 @@ impl Mismatch {
     }
 
     fn check_inertia(&self, assumed: &Whisker) -> Result<(), MismatchError> {
-        let shaft = true_whisker(assumed, &self.smallest(assumed)).shaft;
+        let shaft = true_whisker(assumed, &self.smallest(assumed)).vibrating().shaft;
         match light_shaft(&shaft) {
             Some(_) => Err(MismatchError::Light { name: assumed.name.clone() }),
             None => Ok(()),
         }
     }
 
-    /// The values with the lightest links: those of the shortest and thinnest shaft with the most links.
+    /// The values with the lightest links: those of the shortest and thinnest shaft with the most links and the highest
+    /// first mode.
     fn smallest(&self, assumed: &Whisker) -> Values {
-        self.ranges(&assumed.name).extreme(|property| property != Property::Links)
+        let greatest = [Property::Links, Property::Rig("whiskers.*.first_mode")];
+        self.ranges(&assumed.name).extreme(|property| !greatest.contains(&property))
     }
 
     /// The ranges of a whisker.

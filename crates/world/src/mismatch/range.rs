@@ -1,6 +1,8 @@
 //! A range of values.
 
-/// A range of values (SI units) from which a true value is drawn with uniform density. A single value is a range
+use vibrissa_runtime::math;
+
+/// A range of values (SI units) from which a true value is drawn. A single value is a range
 /// without width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
@@ -15,6 +17,12 @@ impl Range {
     #[must_use]
     pub fn at(self, share: f64) -> f64 {
         self.least + share * (self.greatest - self.least)
+    }
+
+    /// The value at a share of the range of logarithms, 0 to 1, for a range above 0.
+    #[must_use]
+    pub fn at_logarithm(self, share: f64) -> f64 {
+        self.least * math::powf(self.greatest / self.least, share)
     }
 }
 

@@ -42,10 +42,11 @@ impl Ranges {
     /// Draws a value for every property that has a range. The value of a property depends on its own range alone.
     pub(super) fn draw(&self, random: &mut ChaCha8Rng) -> Values {
         let mut values = Values::default();
-        for property in Property::all() {
+        for difference in Difference::all() {
             let share: f64 = StandardUniform.sample(random);
-            if let Some(range) = self.get(property) {
-                values.0.insert(property, range.at(share));
+            if let Some(range) = self.get(difference.property) {
+                let value = if difference.is_logarithmic() { range.at_logarithm(share) } else { range.at(share) };
+                values.0.insert(difference.property, value);
             }
         }
         values
@@ -69,7 +70,7 @@ pub(super) fn changes() -> impl Iterator<Item = (&'static RigKey, Change, Proper
 }
 
 /// The values of some properties.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Values(BTreeMap<Property, f64>);
 
 impl Values {

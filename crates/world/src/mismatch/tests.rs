@@ -58,6 +58,39 @@ fn the_radius_scales_the_whole_taper_and_the_tip_radius_the_tip_alone() {
 }
 
 #[test]
+fn a_replaced_value_is_the_true_one_and_its_logarithm_is_drawn() {
+    let first_mode = Property::Rig("whiskers.*.first_mode");
+    let mut mismatch = with(first_mode, Range { least: 1.0, greatest: 100.0 });
+    let assumed = Rig::default();
+    let mut low = 0;
+    for seed in 0..2000 {
+        mismatch.seed = Some(seed);
+        let found = mismatch.array(&assumed).rig.whiskers[0].first_mode.unwrap();
+        assert!((1.0..=100.0).contains(&found));
+        low += u32::from(found < 10.0);
+    }
+    // Half of them, within four standard deviations of a binomial distribution.
+    assert!(low.abs_diff(1000) < 90, "{low} of 2000 are below the geometric mean");
+}
+
+#[test]
+fn the_servo_of_rotation_is_that_of_translation_unless_it_is_given() {
+    let mut mismatch = with(Property::Servo, 0.6);
+    let servos = |mismatch: &Mismatch| mismatch.array(&Rig::default()).rig.platform.servos();
+    assert_eq!(servos(&mismatch).as_slice(), [0.6; 3]);
+    mismatch.common.set(Property::Rig("platform.yaw_servo"), 0.02);
+    assert_eq!(servos(&mismatch).as_slice(), [0.6, 0.6, 0.02]);
+}
+
+#[test]
+fn softer_contacts_are_those_of_the_simulation_alone() {
+    let array = with(Property::Rig("physics.contact_time"), 3.0).array(&Rig::default());
+    let assumed = Physics::default();
+    assert!((array.physics(&assumed).contact_time / assumed.contact_time - 4.0).abs() < 1e-12);
+    assert_eq!(array.rig, Rig::default());
+}
+
+#[test]
 fn friction_shortens_the_steps_of_the_simulation() {
     for (friction, least) in [(0.1, 6.0), (0.2, 12.0), (0.3, 12.0)] {
         let array = with(Property::Friction, friction).array(&Rig::default());
