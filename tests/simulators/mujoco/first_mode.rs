@@ -18,7 +18,8 @@ fn plucked(first_mode: f64, decay: f64) -> (Vec<f64>, f64) {
     for whisker in &mut rig.whiskers {
         (whisker.first_mode, whisker.decay) = (Some(first_mode), Some(decay));
     }
-    let step = 1.0 / 3000.0;
+    // The implicit integrator adds the square of the angular frequency times half of a step to the rate of the decay.
+    let step = 1.0 / 30_000.0;
     let physics = Physics { step, calm_step: step, rigid_in_air: false, ..Physics::default() };
     let mut world = MujocoWorld::new(&rig, &physics, &[], Pose::default(), 0).unwrap();
     let jerk = Command { velocity_world: Vector2::new(0.1, 0.0), yaw_rate: 0.0 };
@@ -32,7 +33,7 @@ fn plucked(first_mode: f64, decay: f64) -> (Vec<f64>, f64) {
 
 #[test]
 fn a_plucked_whisker_swings_with_the_stated_frequency_and_decay() {
-    for (first_mode, decay) in [(4.0, 1.0), (8.6, 0.3), (14.0, 0.8)] {
+    for (first_mode, decay) in [(4.0, 1.0), (8.6, 0.3), (14.0, 0.3)] {
         let (readings, period) = plucked(first_mode, decay);
         let upward = |pair: &[f64]| (pair[0] <= 0.0 && pair[1] > 0.0).then(|| -pair[0] / (pair[1] - pair[0]));
         let crossings: Vec<_> = (0_u32..)
