@@ -10,6 +10,8 @@ use vibrissa_runtime::calibration::ContactSet;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::calibrate_array::{calibrate_array, calibrate_touches};
+use super::calibrate_plan::calibrate_plan;
+use super::calibrate_pluck::calibrate_pluck;
 use super::drive::config;
 use super::exit::Exit;
 use super::failure::Failure;
@@ -17,7 +19,7 @@ use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
 use super::provenance::provenance;
 use super::trials::make_directory;
-use super::values::{parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
+use super::values::{parse_heading, parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use vibrissa_lab::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
 use vibrissa_lab::load::{self, LoadError, WithoutEffect};
 use vibrissa_lab::report::{held_out_table, profile_picture};
@@ -26,12 +28,13 @@ use vibrissa_text::file::{CommandFiles, Output, OutputError};
 use vibrissa_world::physics::{Physics, Preset};
 use vibrissa_world::scenario::{write_calibration, write_robot_calibration};
 
-const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n  vibrissa calibrate --self --mismatch scenarios/mismatch/plausible.yaml --out out\n  vibrissa calibrate --touches out/touches.csv --rig my-rig.yaml --out measured\n\nExit status: 0 done; 1 a whisker is refused; 2 unusable input; 3 internal error; 130 interrupted.";
+const EXAMPLE: &str = "Example:\n  vibrissa calibrate --out out\n  vibrissa calibrate sets.csv --rig my-rig.yaml --whisker r0 --out out\n  vibrissa calibrate counts.csv --config array.yaml --neutral -812 --whisker r0 --out out\n  vibrissa calibrate --self --mismatch scenarios/mismatch/plausible.yaml --out out\n  vibrissa calibrate --touches out/touches.csv --rig my-rig.yaml --out measured\n  vibrissa calibrate --pluck pluck.csv --whisker r0\n\nExit status: 0 done; 1 a whisker is refused; 2 unusable input; 3 internal error; 130 interrupted.";
 
 /// The arguments of `vibrissa calibrate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 #[command(group = ArgGroup::new("of_array").args(["mismatch_file", "mismatch_seed", "world", "no_prune", "jobs"]).multiple(true).requires("itself"))]
+#[command(group = ArgGroup::new("touched").args(["touches", "plan"]))]
 pub(super) struct CalibrateArguments {
     /// Let the array of the rig touch a pin and measure its own whiskers, in a simulator. Writes a calibration for each whisker
     #[arg(long = "self", conflicts_with_all = ["sets", "config", "whisker"])]
@@ -45,11 +48,29 @@ pub(super) struct CalibrateArguments {
     /// whisker that has touches
     #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "whisker", "noise"])]
     touches: Option<PathBuf>,
+    /// Recording of a run, or comma-separated values with the columns `time_s` and `base_angle_urad`, in which a whisker is bent and
+    /// released in the air. Prints its first mode and decay
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "touches", "noise", "rig", "out"])]
+    pluck: Option<PathBuf>,
+    /// File of touches of a pin so far, which may be missing. Prints the poses of the platform for the next touch. The pin is the origin
+    /// of the world frame
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "whisker", "noise", "touches", "pluck"])]
+    plan: Option<PathBuf>,
+    /// Read the base angle of each planned touch and that in the air (urad) from a line of standard input, or `missed`, or the name of a
+    /// file with readings from the air to the touch. Touches are added to the file until they suffice, and then fitted
+    #[arg(long = "continue", requires = "plan")]
+    pub(super) continued: bool,
+    /// Radius of the pin. The default is a tenth of the length of a whisker
+    #[arg(long, value_name = "LENGTH", requires = "plan", value_parser = parse_jitter)]
+    pub(super) pin_radius: Option<f64>,
+    /// Heading of the platform in all touches
+    #[arg(long, value_name = "ANGLE", default_value = "90 deg", requires = "plan", allow_hyphen_values = true, value_parser = parse_heading)]
+    pub(super) heading: f64,
     /// Standard deviation of the position of the platform relative to the object in measured touches, in each direction
-    #[arg(long, value_name = "LENGTH", default_value = "0.05 mm", requires = "touches", value_parser = parse_jitter)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.05 mm", requires = "touched", value_parser = parse_jitter)]
     pub(super) position_noise: f64,
     /// Standard deviation of the heading of the platform in measured touches
-    #[arg(long, value_name = "ANGLE", default_value = "0.02 deg", requires = "touches", value_parser = parse_jitter_heading)]
+    #[arg(long, value_name = "ANGLE", default_value = "0.02 deg", requires = "touched", value_parser = parse_jitter_heading)]
     pub(super) heading_noise: f64,
     #[command(flatten)]
     pub(super) world: WorldOptions,
@@ -71,7 +92,7 @@ pub(super) struct CalibrateArguments {
     neutral: Option<f64>,
     /// Whisker to calibrate. The default is the first whisker of the rig
     #[arg(long, value_name = "NAME")]
-    whisker: Option<String>,
+    pub(super) whisker: Option<String>,
     /// Simulate the estimated noise and resolution of the real sensors
     #[arg(long, conflicts_with = "sets")]
     pub(super) noise: bool,
@@ -104,6 +125,12 @@ impl Document for Printed<'_> {
 pub(super) fn calibrate(arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     if arguments.itself {
         return calibrate_array(arguments);
+    }
+    if let Some(path) = &arguments.pluck {
+        return calibrate_pluck(path, arguments);
+    }
+    if let Some(path) = &arguments.plan {
+        return calibrate_plan(path, arguments);
     }
     if arguments.seed.is_some() && !arguments.noise {
         return Err(LoadError::from(WithoutEffect::Noise).into());

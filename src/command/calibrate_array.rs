@@ -150,7 +150,7 @@ pub(super) fn calibrate_touches(path: &Path, arguments: &CalibrateArguments) -> 
 }
 
 /// The scene with the rig, and its path. Its whiskers have no calibration.
-fn scene(arguments: &CalibrateArguments, files: &mut CommandFiles) -> Result<(Scene, PathBuf), Failure> {
+pub(super) fn scene(arguments: &CalibrateArguments, files: &mut CommandFiles) -> Result<(Scene, PathBuf), Failure> {
     let (mut scene, path) = match &arguments.rig {
         Some(path) => (load::scenario(path, files)?.value, path.clone()),
         None => (load::built_in_scenario(&SCENARIOS[0])?.value, SCENARIOS[0].path.into()),

@@ -112,6 +112,12 @@ pub(super) enum Failure {
     SameName { first: PathBuf, second: PathBuf, name: String },
     #[error("{count} polic{} given; give two or more, such as: vibrissa compare a.fsm b.fsm", if *count == 1 { "y is" } else { "ies are" })]
     TooFewPolicies { count: usize },
+    #[error("cannot write {}: {words}", path.display(), words = in_words(cause))]
+    Plan { path: PathBuf, cause: std::io::Error },
+    #[error("cannot read standard input: {words}", words = in_words(.0))]
+    Standard(std::io::Error),
+    #[error("{}: {cause}", path.display())]
+    Pluck { path: PathBuf, cause: vibrissa_lab::calibration::PluckError },
     #[error("there is no family `{name}`; there are {}", known_families())]
     NoSuchFamily { name: String },
     #[error("scenes of families set the policy's parameters: {0}")]

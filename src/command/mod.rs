@@ -3,6 +3,8 @@
 mod bench;
 mod calibrate;
 mod calibrate_array;
+mod calibrate_plan;
+mod calibrate_pluck;
 mod check;
 mod compare;
 mod compile;

@@ -215,7 +215,7 @@ fn recorded_trial(recorded: &SampledRun, scene: &Scene) -> Option<Trial> {
 
 /// Reads the recording of a simulated run. `None` if the file is no such recording.
 #[cfg(feature = "recording")]
-fn run_recording(path: &Path, files: &mut CommandFiles) -> Result<Option<RunRecording>, Failure> {
+pub(super) fn run_recording(path: &Path, files: &mut CommandFiles) -> Result<Option<RunRecording>, Failure> {
     let mut file = files.open(path).map_err(LoadError::read(path))?;
     if !RunRecording::is_in(BufReader::new(&file)) {
         return Ok(None);

@@ -20,6 +20,7 @@ use vibrissa_world::world::Pruning;
 
 use super::calibrate::Printed;
 use super::calibrate_array::MeasuredDocument;
+use super::calibrate_pluck::PluckDocument;
 use super::check::Checked;
 use super::push::Pushed;
 use super::test::Tested;
@@ -60,6 +61,7 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<Tested>(),
         schema::<Printed<'static>>(),
         schema::<MeasuredDocument>(),
+        schema::<PluckDocument>(),
         schema::<Pruning>(),
         schema::<Pushed>(),
     ];

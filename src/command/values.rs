@@ -103,6 +103,13 @@ pub(super) fn parse_jitter_heading(text: &str) -> Result<f64, String> {
     parse_size(text, Dimension::ANGLE, PI, "from 0 to 180 deg, such as \"10 deg\"")
 }
 
+/// A heading (rad).
+pub(super) fn parse_heading(text: &str) -> Result<f64, String> {
+    let size = text.trim().trim_start_matches('-');
+    let heading = parse_size(size, Dimension::ANGLE, PI, "from -180 to 180 deg, such as \"90 deg\"")?;
+    Ok(if size.len() < text.trim().len() { -heading } else { heading })
+}
+
 /// A time of a recording (s).
 pub(super) fn parse_time(text: &str) -> Result<f64, String> {
     parse_size(text, Dimension::TIME, MAX_TIME, "from 0 to 1e9 s, such as \"12.3 s\"")

@@ -230,3 +230,34 @@ fn touches_of_a_whisker_that_the_rig_lacks_and_too_few_touches_are_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("`l7`"), "{}", stderr(&output));
 }
+
+#[test]
+fn a_pluck_shows_the_first_mode_of_a_whisker() {
+    use std::fmt::Write;
+    let folder = directory("calibrate_pluck");
+    let (frequency, decay) = (8.6_f64, 0.25_f64);
+    let mut text = "time_s,base_angle_urad\n".to_owned();
+    for index in 0..900_u32 {
+        let time = f64::from(index) / 300.0;
+        let free = (time - 0.4).max(0.0);
+        let swing = ((std::f64::consts::TAU * frequency).powi(2) - decay.powi(-2)).sqrt();
+        writeln!(text, "{time},{}", 5.0 + 120.0 * (-free / decay).exp() * (swing * free).cos()).unwrap();
+    }
+    let file = folder.join("pluck.csv");
+    std::fs::write(&file, text).unwrap();
+    let file = file.display().to_string();
+    let output = vibrissa(&["calibrate", "--pluck", &file, "--whisker", "l0", "--json"]);
+    let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!((&found["format"], &found["whisker"]), (&"pluck".into(), &"l0".into()));
+    for (key, wanted) in [("first_mode_hz", frequency), ("decay_s", decay)] {
+        let value = found[key].as_f64().unwrap();
+        assert!((value / wanted - 1.0).abs() < 0.01, "{key}: {value}");
+    }
+    let output = vibrissa(&["calibrate", "--pluck", &file]);
+    assert!(stdout(&output).starts_with("whiskers: {r0: {first_mode: 8.6"), "{}", stdout(&output));
+
+    std::fs::write(folder.join("still.csv"), "time_s,base_angle_urad\n0,1\n1,1\n").unwrap();
+    let output = vibrissa(&["calibrate", "--pluck", &folder.join("still.csv").display().to_string()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("record at least 20"), "{}", stderr(&output));
+}

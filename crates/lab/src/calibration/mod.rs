@@ -8,8 +8,11 @@ mod contact_sets;
 mod count_set;
 mod fit;
 mod hinge_fit;
+mod next_touch;
+mod pluck;
 #[cfg(feature = "sim")]
 mod simulated_rig;
+mod timed_readings;
 mod touch_file;
 mod touch_procedure;
 mod undetermined;
@@ -22,8 +25,11 @@ pub use count_set::CountSet;
 #[cfg(feature = "robot")]
 pub use count_set::fit_field;
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
+pub use next_touch::NextTouch;
+pub use pluck::{Pluck, PluckError};
 #[cfg(feature = "sim")]
 pub use simulated_rig::{CalibrationRigError, simulated_sets};
+pub use timed_readings::read_timed_readings;
 pub use touch_file::{read_touches, write_touches};
 pub use touch_procedure::{Pin, TouchLimits, start_beside_pin, touch_pin};
 pub use undetermined::undetermined;

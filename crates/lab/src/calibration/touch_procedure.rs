@@ -38,7 +38,7 @@ impl Default for TouchLimits {
 }
 
 /// Distance (m) of the pin from a straight whisker that passes it. It exceeds the tolerances of the array.
-const CLEARANCE: f64 = 8e-3;
+pub(super) const CLEARANCE: f64 = 8e-3;
 /// Share of the expected base angle below which the whisker has slipped off the pin.
 const SLIPPED: f64 = 0.3;
 /// Change of the reading in the air (rad) from touch to touch that is no drift.
@@ -58,7 +58,7 @@ const LAST: f64 = 8.0;
 const MODEL_POSITION: f64 = 1e-5;
 const MODEL_ANGLE: f64 = 2e-8;
 /// Expected standard deviation of a reading relative to the air (rad), for the plan.
-const EXPECTED_DEVIATION: f64 = 1e-7;
+pub(super) const EXPECTED_DEVIATION: f64 = 1e-7;
 
 /// Calibrates all whiskers of an array one after the other. `rig` is the assumed array. The platform starts at rest in
 /// `world`, with its whiskers in the air.

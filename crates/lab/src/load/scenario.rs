@@ -10,7 +10,7 @@ use super::sought::Sought;
 use super::text::{SIZE_LIMIT, name, read, reason, text};
 use super::{LoadError, Loaded};
 use crate::built_in::TextFile;
-use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_touches};
+use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_timed_readings, read_touches};
 use crate::family::Family;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_text::file::CommandFiles;
@@ -132,6 +132,14 @@ pub fn count_sets(path: &Path, files: &mut CommandFiles) -> Result<Vec<CountSet>
 /// [`LoadError`] if a file cannot be read or its text has errors.
 pub fn touches(path: &Path, files: &mut CommandFiles) -> Result<Vec<(String, TouchReading)>, LoadError> {
     sets(path, files, read_touches)
+}
+
+/// Reads times (s) and base angles (rad) of one whisker.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
+pub fn timed_readings(path: &Path, files: &mut CommandFiles) -> Result<Vec<(f64, f64)>, LoadError> {
+    sets(path, files, read_timed_readings)
 }
 
 fn sets<T>(

@@ -1,0 +1,129 @@
+//! `vibrissa calibrate --plan`
+
+use std::io::{BufRead, stdin};
+use std::path::Path;
+
+use vibrissa_runtime::calibration::{PlannedTouch, TouchNoise, TouchReading};
+use vibrissa_runtime::rig::Rig;
+
+use super::calibrate::CalibrateArguments;
+use super::calibrate_array::{calibrate_touches, scene};
+use super::exit::Exit;
+use super::failure::Failure;
+use super::output;
+use vibrissa_lab::calibration::{NextTouch, Pin, TouchLimits, write_touches};
+use vibrissa_lab::load;
+use vibrissa_text::file::{CommandFiles, replace};
+use vibrissa_world::geometry::{Point2, Pose};
+
+/// Time (s) at the begin of a recording that is in the air, and at its end that is in the touch.
+const RESTED: f64 = 0.5;
+/// Least standard deviation (rad) of a reading relative to the air, for a reading without one.
+const LEAST_DEVIATION: f64 = 1e-7;
+
+/// The touches of an array so far.
+struct Session<'a> {
+    path: &'a Path,
+    rig: Rig,
+    noise: TouchNoise,
+    pin: (Pin, f64),
+    /// Touches in the order of time, each with the index of its whisker.
+    touches: Vec<(usize, TouchReading)>,
+    missed: Vec<Vec<PlannedTouch>>,
+}
+
+/// Says the next touch of a pin after those in the file at `path`. With `--continue`, reads its readings from standard input, adds them
+/// to the file, and goes on until they suffice.
+pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Result<Exit, Failure> {
+    let mut files = CommandFiles::new();
+    let rig = scene(arguments, &mut files)?.0.rig;
+    let named = if path.exists() { load::touches(path, &mut files)? } else { Vec::new() };
+    let mut touches = Vec::with_capacity(named.len());
+    for (name, touch) in named {
+        let index = rig.indices(std::slice::from_ref(&name)).map_err(Failure::NoWhisker)?;
+        touches.extend(index.first().map(|index| (*index, touch)));
+    }
+    // A pin as large as that of a simulated array.
+    let radius = arguments.pin_radius.unwrap_or_else(|| 0.1 * rig.whiskers.first().map_or(0.1, |one| one.shaft.length));
+    let mut session = Session {
+        path,
+        missed: vec![Vec::new(); rig.whiskers.len()],
+        rig,
+        noise: TouchNoise { position: arguments.position_noise, heading: arguments.heading_noise },
+        pin: (Pin { centre: Point2::origin(), radius }, arguments.heading),
+        touches,
+    };
+    let mut lines = stdin().lock().lines();
+    while let Some((index, next)) = session.next() {
+        session.say(index, &next)?;
+        if !arguments.continued {
+            return Ok(Exit::Done);
+        }
+        let Some(line) = lines.next() else { return Ok(Exit::Done) };
+        session.take(index, &next, line.map_err(Failure::Standard)?.trim(), &mut files)?;
+    }
+    output::result("the touches suffice")?;
+    if arguments.out.is_some() { calibrate_touches(path, arguments) } else { Ok(Exit::Done) }
+}
+
+impl Session<'_> {
+    fn next(&self) -> Option<(usize, NextTouch)> {
+        let of_whisker = |index: usize| {
+            let touches = self.touches.iter().filter(move |(other, _)| *other == index);
+            touches.map(|(_, touch)| *touch).collect::<Vec<_>>()
+        };
+        let readings: Vec<_> = (0..self.rig.whiskers.len()).map(of_whisker).collect();
+        NextTouch::of_rig(&self.rig, &readings, &self.missed, &self.noise, self.pin, &TouchLimits::default())
+    }
+
+    fn say(&self, index: usize, next: &NextTouch) -> Result<(), Failure> {
+        let name = self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
+        let pose = |Pose { position, heading }: Pose| {
+            format!("x {:.2} mm, y {:.2} mm, heading {:.2} deg", 1e3 * position.x, 1e3 * position.y, heading.to_degrees())
+        };
+        let number = self.touches.iter().filter(|(other, _)| *other == index).count() + 1;
+        output::result(format_args!("{name}, touch {number}; tips are known to {:.3} mm", 1e3 * next.tip_deviation))?;
+        output::result(format_args!("  in the air: {}", pose(next.in_air)))?;
+        output::result(format_args!("  touch:      {}", pose(next.touch)))?;
+        output::result(format_args!("  about {:.0} urad are expected", 1e6 * next.planned.base_angle))
+    }
+
+    /// Adds the touch of a line: `READING IN_AIR [DEVIATION]` (urad), `missed`, or the name of a file of readings.
+    fn take(&mut self, index: usize, next: &NextTouch, line: &str, files: &mut CommandFiles) -> Result<(), Failure> {
+        if line == "missed" {
+            if let Some(missed) = self.missed.get_mut(index) {
+                missed.push(next.planned);
+            }
+            return Ok(());
+        }
+        let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
+        let touch = match numbers.as_deref() {
+            Ok(&[reading, in_air]) => next.reading(1e-6 * reading, 1e-6 * in_air, LEAST_DEVIATION),
+            Ok(&[reading, in_air, deviation]) => next.reading(1e-6 * reading, 1e-6 * in_air, 1e-6 * deviation),
+            _ if line.is_empty() || numbers.is_ok() => {
+                let usage = "give `READING IN_AIR` in urad, `missed`, or the name of a file with readings";
+                output::message(usage);
+                return Ok(());
+            }
+            _ => recorded(next, &load::timed_readings(Path::new(line), files)?),
+        };
+        self.touches.push((index, touch));
+        let name = |index: usize| self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
+        let text = write_touches(self.touches.iter().map(|(index, touch)| (name(*index), touch)))?;
+        replace(self.path, text.as_bytes()).map_err(|cause| Failure::Plan { path: self.path.to_owned(), cause })
+    }
+}
+
+/// The touch of a recording that begins in the air and ends in the touch.
+fn recorded(next: &NextTouch, readings: &[(f64, f64)]) -> TouchReading {
+    let (begin, end) = (readings.first().map_or(0.0, |one| one.0), readings.last().map_or(0.0, |one| one.0));
+    let mean = |is_in: &dyn Fn(f64) -> bool| {
+        let inside: Vec<f64> = readings.iter().filter(|(time, _)| is_in(*time)).map(|(_, reading)| *reading).collect();
+        let count = inside.len().max(1) as f64;
+        let mean = inside.iter().sum::<f64>() / count;
+        (mean, inside.iter().map(|reading| (reading - mean).powi(2)).sum::<f64>() / (count * (count - 1.0).max(1.0)))
+    };
+    let (in_air, first) = mean(&|time| time <= begin + RESTED);
+    let (base_angle, last) = mean(&|time| time >= end - RESTED);
+    next.reading(base_angle, in_air, (first + last).sqrt().max(LEAST_DEVIATION))
+}
