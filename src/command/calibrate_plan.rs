@@ -79,7 +79,12 @@ impl Session<'_> {
     fn say(&self, index: usize, next: &NextTouch) -> Result<(), Failure> {
         let name = self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
         let pose = |Pose { position, heading }: Pose| {
-            format!("x {:.2} mm, y {:.2} mm, heading {:.2} deg", 1e3 * position.x, 1e3 * position.y, heading.to_degrees())
+            format!(
+                "x {:.2} mm, y {:.2} mm, heading {:.2} deg",
+                1e3 * position.x,
+                1e3 * position.y,
+                heading.to_degrees()
+            )
         };
         let number = self.touches.iter().filter(|(other, _)| *other == index).count() + 1;
         output::result(format_args!("{name}, touch {number}; tips are known to {:.3} mm", 1e3 * next.tip_deviation))?;

@@ -56,7 +56,8 @@ fn a_mismatch_of_nothing_changes_no_bit() {
         let none = run(&trial, None);
         assert_eq!(none, run(&trial, Some(Mismatch::default())), "{world}");
         let is_absolute = |property| matches!(property, Property::Links | Property::Servo | Property::WanderTime);
-        let zero = Difference::all().filter(|difference| !is_absolute(difference.property) && !difference.is_logarithmic());
+        let zero =
+            Difference::all().filter(|difference| !is_absolute(difference.property) && !difference.is_logarithmic());
         let zero: Vec<_> = zero.map(|difference| (difference.property, 0.0.into())).collect();
         assert_eq!(none, run(&trial, Some(with(&zero))), "{world}");
     }

@@ -120,7 +120,10 @@ mod tests {
         for (parameter, wanted) in wanted {
             let index = parameter.index();
             let (found, deviation) = (fit.parameters[index], fit.covariance[(index, index)].sqrt());
-            assert!((found - wanted).abs() < 4.0 * deviation, "{parameter:?}: {found} for {wanted}, within {deviation}");
+            assert!(
+                (found - wanted).abs() < 4.0 * deviation,
+                "{parameter:?}: {found} for {wanted}, within {deviation}"
+            );
         }
         assert!(fit.tip_deviation() < 1.05 * limits.deviation, "{} m", fit.tip_deviation());
     }

@@ -98,9 +98,11 @@ impl Pluck {
 /// The best frequency (Hz) and decay (s) of a grid.
 fn coarse(free: &[(f64, f64)], fastest: f64) -> (f64, f64) {
     let grid = |(least, greatest): (f64, f64), ratio: f64| {
-        std::iter::successors(Some(least), move |value| Some(value * ratio.exp())).take_while(move |value| *value < greatest)
+        std::iter::successors(Some(least), move |value| Some(value * ratio.exp()))
+            .take_while(move |value| *value < greatest)
     };
-    let pairs = grid((FREQUENCIES.0, fastest), RATIO.0).flat_map(|frequency| grid(DECAYS, RATIO.1).map(move |decay| (frequency, decay)));
+    let pairs = grid((FREQUENCIES.0, fastest), RATIO.0)
+        .flat_map(|frequency| grid(DECAYS, RATIO.1).map(move |decay| (frequency, decay)));
     let rated = pairs.map(|pair| (misfit(free, pair.0, pair.1), pair));
     rated.min_by(|a, b| a.0.total_cmp(&b.0)).map_or((FREQUENCIES.0, DECAYS.0), |(_, pair)| pair)
 }
@@ -110,7 +112,8 @@ fn refined(free: &[(f64, f64)], (mut frequency, mut decay): (f64, f64), mut step
     let mut least = misfit(free, frequency, decay);
     for _ in 0..REFINEMENTS {
         let around = [-1.0, 0.0, 1.0_f64];
-        let near = around.iter().flat_map(|f| around.map(|d| (frequency * (f * step.0).exp(), decay * (d * step.1).exp())));
+        let near =
+            around.iter().flat_map(|f| around.map(|d| (frequency * (f * step.0).exp(), decay * (d * step.1).exp())));
         let rated = near.map(|pair| (misfit(free, pair.0, pair.1), pair));
         match rated.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((better, pair)) if better < least => (least, (frequency, decay)) = (better, pair),
@@ -225,7 +228,8 @@ mod tests {
     #[test]
     fn readings_that_are_no_pluck_are_refused() {
         assert!(matches!(Pluck::of(&[]), Err(PluckError::Short { count: 0 })));
-        let still: Vec<_> = (0..300_u32).map(|index| (f64::from(index) / 300.0, 1e-6 * (f64::from(index) * 2.4).sin())).collect();
+        let still: Vec<_> =
+            (0..300_u32).map(|index| (f64::from(index) / 300.0, 1e-6 * (f64::from(index) * 2.4).sin())).collect();
         assert_eq!(Pluck::of(&still), Err(PluckError::Still));
         let ramp = (0..600_u32).map(|index| {
             let time = f64::from(index) / 300.0;

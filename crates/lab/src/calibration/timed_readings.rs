@@ -31,7 +31,10 @@ pub fn read_timed_readings(bytes: &[u8]) -> Result<Vec<(f64, f64)>, SetsError> {
         let record = record.map_err(refusal)?;
         let line = record.position().map_or(0, csv::Position::line);
         let row: Row = record.deserialize(Some(&header)).map_err(refusal)?;
-        if readings.last().is_some_and(|(before, _)| row.time_s.partial_cmp(before) != Some(std::cmp::Ordering::Greater)) {
+        if readings
+            .last()
+            .is_some_and(|(before, _)| row.time_s.partial_cmp(before) != Some(std::cmp::Ordering::Greater))
+        {
             return Err(SetsError::new(line, "times must increase from line to line".to_owned()));
         }
         readings.push((row.time_s, 1e-6 * row.base_angle_urad));
