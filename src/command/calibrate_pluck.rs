@@ -14,6 +14,8 @@ use super::provenance::provenance;
 use super::replay::run_recording;
 use vibrissa_lab::calibration::Pluck;
 use vibrissa_lab::load;
+#[cfg(feature = "recording")]
+use vibrissa_lab::recording::SampledRun;
 use vibrissa_lab::results::Document;
 use vibrissa_text::file::CommandFiles;
 
@@ -61,14 +63,14 @@ fn readings(
 ) -> Result<(String, Vec<(f64, f64)>), Failure> {
     #[cfg(feature = "recording")]
     if let Some(run) = run_recording(path, files)? {
-        let rig = run.rig();
+        let SampledRun { rig, samples, .. } = SampledRun::from(&run);
         let index = match &arguments.whisker {
             Some(name) => *rig.indices(std::slice::from_ref(name)).map_err(Failure::NoWhisker)?.first().unwrap_or(&0),
             None => 0,
         };
         let of_whisker = |sample: &vibrissa_runtime::signal::Sample| (sample.time, sample.whiskers[index].base_angle);
         let name = rig.whiskers.get(index).map_or_else(String::new, |whisker| whisker.name.clone());
-        return Ok((name, run.samples().iter().flatten().map(of_whisker).collect()));
+        return Ok((name, samples.iter().flatten().map(of_whisker).collect()));
     }
     let name = arguments.whisker.clone().unwrap_or_else(|| "r0".to_owned());
     Ok((name, load::timed_readings(path, files)?))

@@ -90,7 +90,7 @@ mod tests {
 
     use super::*;
 
-    /// The readings are those of the mechanics of a whisker that differs from the rig, on a platform that is where it was told to be.
+    /// The readings are those of the mechanics of a whisker that differs from the rig, on a platform that takes the planned poses exactly.
     #[test]
     fn a_whisker_that_somebody_else_moves_is_known_after_the_planned_touches() {
         let rig = Rig::default();

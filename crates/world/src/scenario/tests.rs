@@ -133,7 +133,8 @@ fn every_key_of_a_rig_can_be_set() {
   whiskers:
     a:
       {base: [1 mm, 2 mm], direction: 3 rad, pitch: 0.5 rad, out_of_plane: 3, length: 4 cm, radius: 50 um, tip_radius: 20 um, density: 6 g/cm^3,
-       young_modulus: 7 GPa, damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2}}
+       young_modulus: 7 GPa, damping: 8 ms, links: 9, hinge: {stiffness: 2 N m/rad, damping: 3 N m s/rad, armature: 0.4 kg m^2},
+       first_mode: 12 Hz, decay: 200 ms}
   physics: {step: 1 ms, calm_step: 2 ms, rigid_in_air: false, integrator: implicitfast, solver: PGS, contact_time: 2 ms,
      contact_impedance: [0.3, 40 %, 5 mm], friction: 6, penetration_limit: 7 mm, object_height: 8 mm}
   sensing: {sample_rate: 1 kHz, control_rate: 50 Hz, filter_cutoff: 60 Hz, contact_threshold: 7 urad, friction: 0.2,
@@ -171,6 +172,8 @@ fn every_key_of_a_rig_can_be_set() {
                 ..Shaft::default()
             },
             hinge: Hinge { stiffness: 2.0, damping: 3.0, armature: 0.4 },
+            first_mode: Some(12.0),
+            decay: Some(0.2),
             calibration: None,
         }],
         sensing: Sensing {
