@@ -5,6 +5,7 @@ mod cable;
 mod explain;
 #[cfg(feature = "sim")]
 mod first_mode;
+#[cfg(feature = "sim")]
 mod friction;
 #[cfg(feature = "sim")]
 mod pruning;
