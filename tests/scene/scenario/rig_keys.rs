@@ -5,10 +5,11 @@ use std::path::Path;
 
 use vibrissa::diagnostic::{Diagnostic, Source};
 use vibrissa::mismatch::Difference;
-use vibrissa::rig::{Access, KEYS, Part, Place, RigKey, differences_table, key, keys_table};
+use vibrissa::physics::Physics;
+use vibrissa::rig::{Access, KEYS, Place, RigKey, differences_table, key, keys_table};
 use vibrissa::scenario::{read_rig, read_with};
 use vibrissa_robot::config::{Config, ConfigError};
-use vibrissa_runtime::rig::{Rig, Whisker};
+use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::units::parse_quantity;
 
 /// The keys of a path with a value, on one line.
@@ -168,7 +169,7 @@ fn a_robot_accepts_the_rig_of_every_scenario_and_a_scenario_that_of_the_robot() 
 }
 
 #[test]
-fn every_key_is_there_once_and_a_mismatch_changes_only_numbers_of_whiskers_and_of_the_platform() {
+fn every_key_is_there_once_and_a_mismatch_changes_only_numbers_of_whiskers_the_platform_and_contacts() {
     let paths: BTreeSet<_> = KEYS.iter().map(|key| key.path).collect();
     assert_eq!(paths.len(), KEYS.len());
     let properties: BTreeSet<_> = Difference::all().map(|difference| difference.property).collect();
@@ -176,12 +177,15 @@ fn every_key_is_there_once_and_a_mismatch_changes_only_numbers_of_whiskers_and_o
     assert_eq!((properties.len(), differences.len()), (Difference::all().count(), Difference::all().count()));
     for (path, change) in Difference::all().filter_map(|difference| difference.of) {
         let key = key(path).unwrap_or_else(|| panic!("{path}"));
-        let mut rig = Rig::default();
-        let before = rig.clone();
+        let (mut rig, mut physics) = (Rig::default(), Physics::default());
         key.apply(&mut rig.whiskers[0], change, 0.25);
         key.apply(&mut rig.platform, change, 0.25);
-        assert_ne!(rig, before, "{path}");
-        assert!(Whisker::access(key.place).is_some() || matches!(key.place, Place::Platform(_)), "{path}");
+        key.apply(&mut rig.sensing, change, 0.25);
+        key.apply(&mut physics, change, 0.25);
+        // Perception has the rig, and only the simulation has the contacts.
+        let is_of_contacts = path == "physics.contact_time";
+        assert_eq!((rig != Rig::default(), physics != Physics::default()), (!is_of_contacts, is_of_contacts), "{path}");
+        assert_eq!(rig.sensing, Rig::default().sensing, "{path}");
     }
 }
 
