@@ -102,11 +102,14 @@ impl Session<'_> {
             return Ok(());
         }
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
+        let are_finite = numbers.as_deref().is_ok_and(|numbers| numbers.iter().all(|number| number.is_finite()));
         let touch = match numbers.as_deref() {
-            Ok(&[reading, in_air]) => next.reading(1e-6 * reading, 1e-6 * in_air, LEAST_DEVIATION),
-            Ok(&[reading, in_air, deviation]) => next.reading(1e-6 * reading, 1e-6 * in_air, 1e-6 * deviation),
+            Ok(&[reading, in_air]) if are_finite => next.reading(1e-6 * reading, 1e-6 * in_air, LEAST_DEVIATION),
+            Ok(&[reading, in_air, deviation]) if are_finite && deviation > 0.0 => {
+                next.reading(1e-6 * reading, 1e-6 * in_air, 1e-6 * deviation)
+            }
             _ if line.is_empty() || numbers.is_ok() => {
-                let usage = "give `READING IN_AIR` in urad, `missed`, or the name of a file with readings";
+                let usage = "give `READING IN_AIR [DEVIATION]` in urad, `missed`, or the name of a file with readings";
                 output::message(usage);
                 return Ok(());
             }

@@ -68,9 +68,10 @@ fn readings(
             Some(name) => *rig.indices(std::slice::from_ref(name)).map_err(Failure::NoWhisker)?.first().unwrap_or(&0),
             None => 0,
         };
-        let of_whisker = |sample: &vibrissa_runtime::signal::Sample| (sample.time, sample.whiskers[index].base_angle);
+        let of_whisker =
+            |sample: &vibrissa_runtime::signal::Sample| Some((sample.time, sample.whiskers.get(index)?.base_angle));
         let name = rig.whiskers.get(index).map_or_else(String::new, |whisker| whisker.name.clone());
-        return Ok((name, samples.iter().flatten().map(of_whisker).collect()));
+        return Ok((name, samples.iter().flatten().filter_map(of_whisker).collect()));
     }
     let name = arguments.whisker.clone().unwrap_or_else(|| "r0".to_owned());
     Ok((name, load::timed_readings(path, files)?))
