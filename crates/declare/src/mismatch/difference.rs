@@ -109,7 +109,7 @@ impl Difference {
         Key::new(self.path.rsplit('.').next().unwrap_or(self.path), self.dimension, self.range, self.example)
     }
 
-    /// All differences. Values are drawn in this order, so that a new one changes no other.
+    /// All differences. Values are drawn in this order, so a new one changes only those behind it.
     pub fn all() -> impl Iterator<Item = Self> {
         DIFFERENCES.into_iter().chain(KEYS.iter().filter_map(RigKey::difference))
     }
