@@ -11,7 +11,7 @@ use super::calibrate_array::{calibrate_touches, scene};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use vibrissa_lab::calibration::{NextTouch, Pin, TouchLimits, write_touches};
+use vibrissa_lab::calibration::{NextTouch, Pin, TouchLimits, read_touches, write_touches};
 use vibrissa_lab::load;
 use vibrissa_text::file::{CommandFiles, replace};
 use vibrissa_world::geometry::{Point2, Pose};
@@ -102,12 +102,9 @@ impl Session<'_> {
             return Ok(());
         }
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
-        let are_finite = numbers.as_deref().is_ok_and(|numbers| numbers.iter().all(|number| number.is_finite()));
         let touch = match numbers.as_deref() {
-            Ok(&[reading, in_air]) if are_finite => next.reading(1e-6 * reading, 1e-6 * in_air, LEAST_DEVIATION),
-            Ok(&[reading, in_air, deviation]) if are_finite && deviation > 0.0 => {
-                next.reading(1e-6 * reading, 1e-6 * in_air, 1e-6 * deviation)
-            }
+            Ok(&[reading, in_air]) => next.reading(1e-6 * reading, 1e-6 * in_air, LEAST_DEVIATION),
+            Ok(&[reading, in_air, deviation]) => next.reading(1e-6 * reading, 1e-6 * in_air, 1e-6 * deviation),
             _ if line.is_empty() || numbers.is_ok() => {
                 let usage = "give `READING IN_AIR [DEVIATION]` in urad, `missed`, or the name of a file with readings";
                 output::message(usage);
@@ -118,6 +115,12 @@ impl Session<'_> {
         self.touches.push((index, touch));
         let name = |index: usize| self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
         let text = write_touches(self.touches.iter().map(|(index, touch)| (name(*index), touch)))?;
+        // The file that is written must be one that is read.
+        if let Err(refusal) = read_touches(text.as_bytes()) {
+            output::message(format_args!("this touch is left out: {refusal}"));
+            self.touches.pop();
+            return Ok(());
+        }
         replace(self.path, text.as_bytes()).map_err(|cause| Failure::Plan { path: self.path.to_owned(), cause })
     }
 }

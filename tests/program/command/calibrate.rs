@@ -1,6 +1,6 @@
 //! `vibrissa calibrate`, from touches that were measured.
 
-use super::program::{directory, stderr, stdout, vibrissa};
+use super::program::{directory, stderr, stdout, vibrissa, vibrissa_reading};
 
 /// Touches on a line of places that a whisker might have, as a text.
 pub(crate) fn sets() -> String {
@@ -260,4 +260,30 @@ fn a_pluck_shows_the_first_mode_of_a_whisker() {
     let output = vibrissa(&["calibrate", "--pluck", &folder.join("still.csv").display().to_string()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("record at least 20"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_plan_takes_readings_that_can_be_used_and_goes_on_after_them() {
+    let folder = directory("calibrate_plan");
+    let file = folder.join("touches.csv").display().to_string();
+    let plan = ["calibrate", "--plan", &file, "--heading", "-30 deg", "--pin-radius", "8 mm"];
+    let continued = [&plan[..], &["--continue"]].concat();
+    let first = stdout(&vibrissa(&plan));
+    assert!(first.starts_with("r0, touch 1;") && first.contains("heading -30.00 deg"), "{first}");
+
+    let output = vibrissa_reading(&continued, "nan 1\n150 2 -1\n1e9 2\n1 2 3 4\n\n");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output).lines().count(), 5, "{}", stderr(&output));
+    assert_eq!(stdout(&output), first.repeat(6));
+    assert!(!std::path::Path::new(&file).exists());
+
+    let said = stdout(&vibrissa_reading(&continued, "missed\n"));
+    let another = said.strip_prefix(&first).unwrap();
+    assert!(another.starts_with("r0, touch 1;") && another != first, "{said}");
+
+    let said = stdout(&vibrissa_reading(&continued, "150 2\n"));
+    let text = std::fs::read_to_string(&file).unwrap();
+    assert_eq!(text.lines().count(), 2, "{text}");
+    let second = stdout(&vibrissa(&plan));
+    assert!(second.starts_with("r0, touch 2;") && said == format!("{first}{second}"), "{second}");
 }
