@@ -81,7 +81,9 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
         println!("      left out: the playground, which is not built (cargo x playground)");
         return Ok(());
     }
-    run(&web, "node", &["test/playground.mjs", &program, &playground.to_string_lossy()])
+    let playground = playground.to_string_lossy();
+    run(&web, "node", &["test/bits.mjs", &program, &playground])?;
+    run(&web, "node", &["test/playground.mjs", &program, &playground])
 }
 
 /// Installs the pinned tools, checks the types, and tests the parts that need no browser.
