@@ -3,8 +3,9 @@ import assert from "node:assert/strict";
 import { readdirSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { browser, checkFit, open, serve, tabTo } from "./browser.mjs";
+import { browser, checkFit, open, tabTo } from "./browser.mjs";
 import { fragment, hostileLinks } from "./hostile.mjs";
+import { serve } from "./program.mjs";
 
 const [program, folder] = process.argv.slice(2);
 
