@@ -2,6 +2,7 @@
 //! the other.
 
 #![allow(missing_docs, reason = "criterion's macros write undocumented items")]
+#![allow(clippy::disallowed_methods, reason = "it measures the platform")]
 
 use std::hint::black_box;
 

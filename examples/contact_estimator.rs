@@ -17,6 +17,7 @@ use vibrissa::trial::{Recording, Trial};
 use vibrissa::{policy, scenario};
 use vibrissa_runtime::geometry::{Matrix2, Pose, Vector2};
 use vibrissa_runtime::machine::{ContactEstimatorKind, Senses};
+use vibrissa_runtime::math;
 use vibrissa_runtime::percept::{Contact, ContactEstimator, Perception};
 use vibrissa_runtime::rig::Whisker;
 
@@ -33,7 +34,7 @@ impl Cantilever {
     /// A base moment `M` deflects the tip of a cantilever by `M L² / (3 E I)`.
     fn new(whisker: &Whisker) -> Self {
         let length = whisker.shaft.length;
-        let compliance = whisker.hinge.stiffness * length.powi(2) / (3.0 * whisker.shaft.tip_stiffness());
+        let compliance = whisker.hinge.stiffness * math::square(length) / (3.0 * whisker.shaft.tip_stiffness());
         Self { length, compliance }
     }
 }
@@ -46,10 +47,10 @@ impl ContactEstimator for Cantilever {
             return None;
         }
         // The bent shaft is shorter along its undeflected direction, by 3 d² / (5 L).
-        let along = self.length - 0.6 * deflection.powi(2) / self.length;
+        let along = self.length - 0.6 * math::square(deflection) / self.length;
         // The standard deviation includes the errors of the model: here a tenth of the deflection.
         let deviation = 0.1 * deflection;
-        let covariance = Matrix2::new(0.0, 0.0, 0.0, deviation.powi(2));
+        let covariance = Matrix2::new(0.0, 0.0, 0.0, math::square(deviation));
         Some(Contact::by_tip(Vector2::new(along, deflection), &covariance, self.length, base))
     }
 }

@@ -14,6 +14,7 @@ use vibrissa::geometry::{Point2, Pose, Vector2, perpendicular, unit};
 use vibrissa::trial::Trial;
 use vibrissa::world::{Fault, World};
 use vibrissa::{policy, scenario};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
 
@@ -70,15 +71,16 @@ impl WallWorld {
         if beyond <= 0.0 {
             return Vector2::new(length, 0.0);
         }
-        let root = (left.x.powi(2) + 2.4 * ahead.x * beyond / length).sqrt();
+        let root = (math::square(left.x) + 2.4 * ahead.x * beyond / length).sqrt();
         let deflection = -2.0 * beyond / (left.x + root.copysign(left.x));
-        Vector2::new(length - 0.6 * deflection.powi(2) / length, deflection)
+        Vector2::new(length - 0.6 * math::square(deflection) / length, deflection)
     }
 
     /// The reading of a whisker. A cantilever of length `L` with the tip deflection `d` has the base moment
     /// `3 E I d / L²`. The base angle is the moment over the stiffness of the hinge.
     fn reading(&self, whisker: &Whisker) -> Reading {
-        let moment = 3.0 * whisker.shaft.tip_stiffness() * self.tip_base(whisker).y / whisker.shaft.length.powi(2);
+        let moment =
+            3.0 * whisker.shaft.tip_stiffness() * self.tip_base(whisker).y / math::square(whisker.shaft.length);
         Reading { base_angle: moment / whisker.hinge.stiffness, ..Reading::default() }
     }
 }

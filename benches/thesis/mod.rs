@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use vibrissa::geometry::{Vector2, rotate, turn_between, unit};
 use vibrissa_runtime::machine::{Action, BodyScalar, ContourVector, Mover, Senses, Turn, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::math;
 
 /// The state `Following` of `policies/thesis.fsm` by hand, with all that it uses of the standard library.
 #[derive(Debug, Clone)]
@@ -119,7 +120,7 @@ impl Following {
         now: f64,
         senses: &S,
     ) -> Action {
-        let heading = tangent.y.atan2(tangent.x) + mounting_offset(whisker, senses);
+        let heading = math::atan2(tangent.y, tangent.x) + mounting_offset(whisker, senses);
         let off = turn_between(senses.body(BodyScalar::Yaw), heading);
         let gain = (self.speed / 0.025).min(2.0);
         let limit = (self.speed / 0.06).min(FRAC_PI_4);

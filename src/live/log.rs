@@ -7,7 +7,7 @@ use vibrissa_runtime::signal::Sample;
 
 use vibrissa_lab::recording::RecordedFrame;
 use vibrissa_lab::run::Trace;
-use vibrissa_lab::stream::message::{Frame, Hello};
+use vibrissa_lab::stream::message::{Frame, Hello, MapFrame};
 use vibrissa_lab::stream::{Changeable, GuardNumbers, PastRun, RunFacts, RunSetup, SampleStore, Shadow, TickResult};
 use vibrissa_text::diagnostic::Source;
 use vibrissa_world::scene::Scene;
@@ -201,11 +201,12 @@ impl Past {
 }
 
 /// The frames whose index is a multiple of `every`, and the last one. Events of the dropped frames are in the next kept one, and so are
-/// plots that it has not set itself.
+/// plots and the map that it has not set itself.
 fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
     let mut kept = Vec::with_capacity(frames.len() / every.max(1) + 1);
     let (mut contour, mut taken, mut messages) = (Vec::new(), Vec::new(), Vec::new());
     let mut plots: Vec<Option<f64>> = Vec::new();
+    let mut map: Option<Box<MapFrame>> = None;
     for (place, frame) in frames.iter().enumerate() {
         if !frame.tick.is_multiple_of(every.max(1)) && place + 1 < frames.len() {
             contour.extend_from_slice(&frame.contour);
@@ -213,10 +214,11 @@ fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
             messages.extend_from_slice(&frame.messages);
             plots.resize(frame.plots.len(), None);
             plots.iter_mut().zip(&frame.plots).for_each(|(kept, value)| *kept = value.or(*kept));
+            map = joined(map, frame.map.clone());
             continue;
         }
         let has_plots = frame.plots.iter().zip(&plots).any(|(own, before)| own.is_none() && before.is_some());
-        if contour.is_empty() && taken.is_empty() && messages.is_empty() && !has_plots {
+        if contour.is_empty() && taken.is_empty() && messages.is_empty() && !has_plots && map.is_none() {
             plots.clear();
             kept.push(Arc::clone(frame));
             continue;
@@ -226,9 +228,19 @@ fn thinned(frames: &[Arc<Frame>], every: usize) -> Vec<Arc<Frame>> {
         frame.taken.splice(0..0, taken.drain(..));
         frame.messages.splice(0..0, messages.drain(..));
         frame.plots.iter_mut().zip(plots.drain(..)).for_each(|(own, before)| *own = own.or(before));
+        frame.map = joined(map.take(), frame.map);
         kept.push(Arc::new(frame));
     }
     kept
+}
+
+/// Two frames of the map as one.
+fn joined(before: Option<Box<MapFrame>>, now: Option<Box<MapFrame>>) -> Option<Box<MapFrame>> {
+    let Some(mut now) = now else { return before };
+    if let Some(before) = before {
+        now.prepend(*before);
+    }
+    Some(now)
 }
 
 #[cfg(test)]
@@ -237,6 +249,7 @@ mod tests {
     use proptest::prelude::*;
     use vibrissa_lab::stream::message::{ContourFrame, Metrics};
 
+    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a small count")]
     fn frame(tick: usize, tips: usize, plot: Option<f64>) -> Arc<Frame> {
         let tip =
             |number: usize| ContourFrame { whisker: number, point: [tick as f64, 0.0], spread: None, error: None };
@@ -254,18 +267,22 @@ mod tests {
             timing: None,
             messages: Vec::new(),
             plots: vec![plot],
+            map: (tips > 1).then(|| Box::new(MapFrame { free: vec![[tick as i32, 0, 0]], ..MapFrame::default() })),
         })
     }
 
     proptest! {
         #[test]
-        fn thinned_ticks_have_all_recorded_tips_in_their_order(
+        fn thinned_ticks_have_all_recorded_tips_and_cells_in_their_order(
             tips in prop::collection::vec(0..4_usize, 0..60), every in 1..9_usize,
         ) {
             let frames: Vec<_> = tips.iter().enumerate().map(|(tick, &tips)| frame(tick, tips, None)).collect();
             let kept = thinned(&frames, every);
             let all = |frames: &[Arc<Frame>]| frames.iter().flat_map(|frame| frame.contour.clone()).collect::<Vec<_>>();
             prop_assert_eq!(all(&kept), all(&frames));
+            let maps = |frames: &[Arc<Frame>]| frames.iter().filter_map(|frame| frame.map.clone()).collect::<Vec<_>>();
+            let cells = |frames: &[Arc<Frame>]| maps(frames).into_iter().flat_map(|map| map.free).collect::<Vec<_>>();
+            prop_assert_eq!(cells(&kept), cells(&frames));
             prop_assert_eq!(kept.last().map(|frame| frame.tick), frames.last().map(|frame| frame.tick));
             prop_assert!(kept.len() <= frames.len().div_ceil(every) + 1);
             let mut earlier = kept.iter().rev().skip(1);

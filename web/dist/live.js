@@ -688,7 +688,7 @@
         this.#thin();
       }
     }
-    /** Removes every second one of the older ticks. The next one gets their recorded tips, and the plots that it has not set. */
+    /** Removes every second one of the older ticks. The next one gets their recorded tips, the cells of their maps, and the plots that it has not set. */
     #thin() {
       const isRemoved = (index) => index < this.#frames.length / 2 && index % 2 === 1;
       this.#frames = this.#frames.flatMap((frame, index, frames) => {
@@ -696,7 +696,12 @@
         if (isRemoved(index)) {
           return [];
         }
-        return [before === void 0 ? frame : { ...frame, contour: [...before.contour, ...frame.contour], plots: frame.plots.map((value, plot) => value ?? before.plots[plot] ?? null) }];
+        return [before === void 0 ? frame : {
+          ...frame,
+          contour: [...before.contour, ...frame.contour],
+          plots: frame.plots.map((value, plot) => value ?? before.plots[plot] ?? null),
+          map: joined(before.map, frame.map)
+        }];
       });
       this.#spans = void 0;
     }
@@ -732,6 +737,9 @@
       }
     }
   };
+  function joined(before, now) {
+    return before && now ? { ...now, free: [...before.free, ...now.free], blocked: [...before.blocked, ...now.blocked] } : now ?? before;
+  }
   function extend(spans, { states, time }) {
     const state = states.at(-1) ?? ENDED;
     const last = spans.at(-1);
@@ -1116,38 +1124,42 @@
 
   // src/live/figures.ts
   var amount = (value, unit) => value === null || value === void 0 ? "–" : quantity(value, unit);
+  var isTimed = ({ loop }) => loop !== null;
   var FIGURES = [
     { name: "error", meaning: "mean distance of the recorded tips from the nearest outline", text: ({ metrics }) => amount(metrics.error, "m") },
     { name: "coverage", meaning: "share of the reference that was traced", text: ({ metrics }) => metrics.coverage === null ? "–" : `${digits(metrics.coverage * 100)} %` },
     { name: "standard deviation", meaning: "mean standard deviation of the recorded tips", text: ({ metrics }) => amount(metrics.spread, "m") },
-    { name: "period", meaning: "wall time since the tick before. Pauses do not count", text: ({ loop }) => amount(loop?.period, "s") },
-    { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => amount(loop?.used, "s") },
+    { name: "period", meaning: "wall time since the tick before. Pauses do not count", text: ({ loop }) => amount(loop?.period, "s"), isKnown: isTimed },
+    { name: "used", meaning: "wall time of perception, machine and motion", text: ({ loop }) => amount(loop?.used, "s"), isKnown: isTimed },
     { name: "speed", meaning: "commanded speed", text: ({ command }) => quantity(Math.hypot(command[0], command[1]), "m/s") }
   ];
   var MESSAGES = 6;
   var Figures = class {
     element;
     #values = FIGURES.map(() => element("dd"));
+    #rows;
     #overload = element("p", "overload");
     #messages = element("ul", "messages");
     #known = "";
     constructor() {
       const list = element("dl", "figures");
-      FIGURES.forEach(({ name, meaning }, index) => {
+      this.#rows = FIGURES.map(({ name, meaning }, index) => {
         const term = element("dt", "", name);
         term.title = meaning;
-        list.append(element("div", "", term, this.#values[index] ?? ""));
+        return element("div", "", term, this.#values[index] ?? "");
       });
+      list.append(...this.#rows);
       this.element = element("section", "", element("h2", "", "Figures"), list, this.#overload, this.#messages);
     }
     update({ run, frame }) {
       if (frame === void 0) {
         return;
       }
-      FIGURES.forEach(({ text: text2 }, index) => {
-        const value = this.#values[index];
-        if (value) {
+      FIGURES.forEach(({ text: text2, isKnown }, index) => {
+        const [value, row] = [this.#values[index], this.#rows[index]];
+        if (value && row) {
           value.textContent = text2(frame, run);
+          row.hidden = isKnown?.(frame) === false;
         }
       });
       const { frames, last } = run.history;
@@ -1292,8 +1304,10 @@
       this.#svg.addEventListener("pointerdown", (event) => this.#drag(event));
     }
     update(view) {
+      const { last } = view.run.history;
+      this.element.hidden = last !== void 0 && this.subject.isKnown?.(last) === false;
       const width = this.#width.value;
-      if (width === 0) {
+      if (width === 0 || this.element.hidden) {
         return;
       }
       this.#axis = new TimeAxis(view.from, view.to, LEFT2, width - RIGHT);
@@ -1657,17 +1671,27 @@
   var PART = 300;
   var WRONG = 1e-3;
   var STEP = 4e-3;
+  var OVERLAP = 0.3;
+  var TARGET = 6;
+  var KINDS = ["blocked", "free", "trace", "contour", "contour wrong"];
   var Track = class {
-    group = svg("g");
+    group;
     #world;
+    #layers = KINDS.map((kind) => svg("g", { class: kind === "free" || kind === "blocked" ? "map" : "" }));
+    #route = svg("path", { class: "route" });
+    #target = svg("path", { class: "route" });
     #parts = [];
     constructor(world) {
       this.#world = world;
+      const route = svg("g", { class: "map" }, this.#route, this.#target);
+      this.group = svg("g", {}, ...this.#layers, route);
     }
+    /** True if the run has a map by touch. */
+    hasMap = false;
     /** Forgets the picture, because its scale has changed. */
     clear() {
       this.#parts = [];
-      this.group.replaceChildren();
+      this.#layers.forEach((layer) => layer.replaceChildren());
     }
     /** Draws the past until a tick. */
     show(frames, tick) {
@@ -1682,18 +1706,41 @@
           this.#draw(part, ticks.filter((frame) => frame.tick <= tick));
         }
       }
+      const map = frames.findLast((frame) => frame.tick <= tick && frame.map !== null)?.map ?? null;
+      this.hasMap ||= map !== null;
+      this.#wanted(map);
     }
-    #draw({ path, contour, wrong }, ticks) {
-      const tips = ticks.slice(0, PART).flatMap(({ contour: contour2 }) => contour2);
+    #draw({ paths }, ticks) {
+      const own = ticks.slice(0, PART);
+      const tips = own.flatMap(({ contour }) => contour);
+      const maps = own.flatMap(({ map }) => map ?? []);
       const points = (isWrong) => tips.filter(({ error }) => (error !== null && error > WRONG) === isWrong).map(({ point }) => point);
-      set(path, { d: this.#world.line(thinned(ticks.map(({ pose }) => pose))) });
-      set(contour, { d: this.#world.dots(points(false)) });
-      set(wrong, { d: this.#world.dots(points(true)) });
+      set(paths.trace, { d: this.#world.line(thinned(ticks.map(({ pose }) => pose))) });
+      set(paths.contour, { d: this.#world.dots(points(false)) });
+      set(paths["contour wrong"], { d: this.#world.dots(points(true)) });
+      set(paths.free, { d: maps.map((map) => this.#ground(map, map.free)).join("") });
+      set(paths.blocked, { d: maps.map((map) => this.#ground(map, map.blocked)).join("") });
+    }
+    /** Cells as rectangles. They overlap a little, so that no seams are seen between them. */
+    #ground({ cell, origin: [x, y] }, spans) {
+      const size = cell * this.#world.scale;
+      return spans.map(([row, from, to]) => {
+        const [left, top] = this.#world.px([x + from * cell, y + (row + 1) * cell]);
+        const width = ((to - from + 1) * size + OVERLAP).toFixed(2);
+        return `M${left.toFixed(2)} ${top.toFixed(2)}h${width}v${(size + OVERLAP).toFixed(2)}h-${width}z`;
+      }).join("");
+    }
+    /** The route and the next target of the last map up to a tick. */
+    #wanted(map) {
+      const { route, target } = map ?? { route: [], target: null };
+      set(this.#route, { d: this.#world.line(route) });
+      const [x, y] = target === null ? [0, 0] : this.#world.px(target);
+      set(this.#target, { d: target === null ? "" : `M${x} ${y - TARGET}l${TARGET} ${TARGET}l${-TARGET} ${TARGET}l${-TARGET} ${-TARGET}z` });
     }
     #added() {
-      const [path, contour, wrong] = [svg("path", { class: "trace" }), svg("path", { class: "contour" }), svg("path", { class: "contour wrong" })];
-      this.group.append(path, contour, wrong);
-      return { key: "", path, contour, wrong };
+      const paths = Object.fromEntries(KINDS.map((kind) => [kind, svg("path", { class: kind })]));
+      this.#layers.forEach((layer, index) => layer.append(paths[KINDS[index] ?? "trace"]));
+      return { key: "", paths };
     }
   };
   function thinned(poses) {
@@ -1787,6 +1834,8 @@
     #zoom;
     #drawing = element("div", "drawing");
     #close;
+    #map;
+    #legend = element("p", "hint map-key", element("span", "free", "proved free"), element("span", "blocked", "surface"), element("span", "route", "route, ◇ what is next"), "The rest is unknown.");
     #isClose = false;
     #width;
     #drawnWidth = 0;
@@ -1825,19 +1874,23 @@
       this.#drawing.addEventListener("pointerdown", () => this.#watch(false));
       this.#close = button("robot", () => this.#watch(!this.#isClose), "show the surroundings of the robot");
       this.#close.setAttribute("aria-pressed", "false");
+      this.#map = button("map", () => this.#showMap(!this.#isMapShown), "show what the robot knows by touch: free ground, surfaces, route and next target");
+      this.#showMap(true);
+      [this.#map.hidden, this.#legend.hidden] = [true, true];
       const free = (action) => () => {
         this.#watch(false);
         action();
       };
       const tools = element("div", "tools");
       tools.append(
+        this.#map,
         this.#close,
         button("+", free(() => this.#zoom.by(1.5)), "zoom into the scene"),
         button("−", free(() => this.#zoom.by(1 / 1.5)), "zoom out of the scene"),
         button("whole", free(() => this.#zoom.reset()), "show the whole scene")
       );
       const note = hello.scene === null ? element("p", "hint", "The scene is not known. Only what the robot has felt is shown.") : "";
-      this.element = element("section", "scene", element("div", "head", element("h2", "", "Scene"), tools), this.#drawing, note);
+      this.element = element("section", "scene", element("div", "head", element("h2", "", "Scene"), tools), this.#drawing, this.#legend, note);
       for (const outline of hello.scene ?? []) {
         outline.points.forEach((point) => this.#world.include(point, 0.05));
       }
@@ -1872,6 +1925,8 @@
         return;
       }
       this.#track.show(run.history.frames, frame.tick);
+      this.#map.hidden = !this.#track.hasMap;
+      this.#legend.hidden = !this.#track.hasMap || !this.#isMapShown;
       this.#robot(frame);
       this.#other(run, frame, answer);
     }
@@ -1936,6 +1991,14 @@
       const barb = (turn) => `M${x2} ${y2}l${-5 * Math.cos(angle + turn)} ${-5 * Math.sin(angle + turn)}`;
       return `M${x1} ${y1}L${x2} ${y2}${barb(0.5)}${barb(-0.5)}`;
     }
+    /** Shows the map by touch, or not. */
+    #showMap(isShown) {
+      this.#isMapShown = isShown;
+      this.#map.setAttribute("aria-pressed", String(isShown));
+      this.#legend.hidden = !isShown;
+      this.#drawing.classList.toggle("mapless", !isShown);
+    }
+    #isMapShown = true;
     /** Keeps the robot in the middle, or not. */
     #watch(isClose) {
       this.#isClose = isClose;
@@ -1959,6 +2022,7 @@
         { name: "used", value: ({ loop: loop2 }) => loop2?.used }
       ],
       marked: { name: "overload", holds: ({ loop: loop2 }) => loop2?.overload ?? false },
+      isKnown: ({ loop: loop2 }) => loop2 !== null,
       levels: [{ name: "control period", value: hello.control_period }]
     };
     const contour = {

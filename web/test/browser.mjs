@@ -1,8 +1,5 @@
 // What the tests of all pages need: Chromium, pages whose console stays empty, and the key Tab.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { once } from "node:events";
-import { join } from "node:path";
 import { chromium } from "playwright-core";
 
 // A browser that asks for updates would fail in a closed network.
@@ -41,32 +38,4 @@ export async function tabTo(page, selector) {
     }
   }
   assert.fail(`the key Tab does not reach ${selector}`);
-}
-
-/** Starts a program in the checkout, gives the address of its page to `use`, and ends it. */
-export async function serve(program, options, use) {
-  const child = spawn(program, options, { cwd: join(import.meta.dirname, "../.."), stdio: ["ignore", "pipe", "pipe"] });
-  const exit = once(child, "exit");
-  let output = "";
-  const address = new Promise((resolve, reject) => {
-    for (const stream of [child.stdout, child.stderr]) {
-      stream.on("data", (data) => {
-        output += data;
-        const found = /http:\/\/\S+/.exec(output);
-        if (found && /\s/.test(output[found.index + found[0].length] ?? "")) {
-          resolve(found[0]);
-        }
-      });
-    }
-    child.on("exit", () => reject(new Error(`${options.join(" ")} ended: ${output}`)));
-  });
-  try {
-    await use(await address);
-  } catch (error) {
-    console.error(output);
-    throw error;
-  } finally {
-    child.kill();
-    await exit;
-  }
 }

@@ -5,7 +5,8 @@ import { once } from "node:events";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { browser, checkFit, open, serve as serveBy, tabTo } from "./browser.mjs";
+import { browser, checkFit, open, tabTo } from "./browser.mjs";
+import { serve as serveBy } from "./program.mjs";
 
 const [program] = process.argv.slice(2);
 const root = join(import.meta.dirname, "../..");

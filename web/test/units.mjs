@@ -23,6 +23,18 @@ function ticks(from, to) {
   return Array.from({ length: to - from }, (_, index) => ({ ...pattern, tick: from + index, time: (from + index) / 30, contour: contour(from + index) }));
 }
 
+test("a long run is thinned, and keeps all cells of its map", () => {
+  const run = new Run(hello);
+  const cells = (tick) => ({ cell: 0.005, origin: [0, 0], free: [[tick, 0, 1]], blocked: [[tick, 2, 2]], route: [], target: null });
+  for (let from = 0; from < 120_000; from += 3000) {
+    run.add(ticks(from, from + 3000).map((frame) => ({ ...frame, map: frame.tick % 15 === 0 ? cells(frame.tick) : null })));
+  }
+  const expected = Array.from({ length: 8000 }, (_, index) => 15 * index);
+  for (const kind of ["free", "blocked"]) {
+    assert.deepEqual(run.history.frames.flatMap(({ map }) => (map?.[kind] ?? []).map(([row]) => row)), expected);
+  }
+});
+
 test("every tick that was left out is asked for once, the newest ones first", () => {
   const run = new Run(hello);
   run.add(ticks(4000, 4010));

@@ -12,8 +12,10 @@ use crate::playground::{MODULE, folder};
 /// The names of the bundles: the script and the style sheet of each page.
 const BUNDLES: [&str; 4] = ["report.js", "report.css", "live.js", "live.css"];
 
-/// The browser.
+/// The browser that all pages are used in.
 const CHROMIUM: &str = "/usr/bin/chromium";
+/// The browser that the playground runs in too.
+const FIREFOX: &str = "/usr/bin/firefox-esr";
 
 /// A fault of the scripts, or of the tools that check them.
 #[derive(Debug, Error)]
@@ -81,7 +83,14 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
         println!("      left out: the playground, which is not built (cargo x playground)");
         return Ok(());
     }
-    run(&web, "node", &["test/playground.mjs", &program, &playground.to_string_lossy()])
+    let playground = playground.to_string_lossy();
+    run(&web, "node", &["test/bits.mjs", &program, &playground])?;
+    run(&web, "node", &["test/playground.mjs", &program, &playground])?;
+    if !Path::new(FIREFOX).exists() {
+        println!("      left out: the playground in Firefox, which is not installed ({FIREFOX})");
+        return Ok(());
+    }
+    run(&web, "node", &["test/firefox.mjs", &program, &playground, FIREFOX])
 }
 
 /// Installs the pinned tools, checks the types, and tests the parts that need no browser.

@@ -6,6 +6,7 @@ use mujoco_rs::prelude::{MjData, MjModel};
 use mujoco_rs::wrappers::mj_model::MjtObjBase;
 
 use super::{Scope, mjcf_within, part_names};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Rig, Shaft};
 use vibrissa_world::geometry::{Point2, Pose, Vector2};
 use vibrissa_world::physics::{Physics, ShaftModel};
@@ -276,7 +277,7 @@ impl Engine {
             [angle] => [*angle, 0.0],
             [vertical, transverse] => [*vertical, *transverse],
             // A quaternion about the vertical axis.
-            [cosine, .., sine] => [2.0 * sine.atan2(*cosine), 0.0],
+            [cosine, .., sine] => [2.0 * math::atan2(*sine, *cosine), 0.0],
             [] => [0.0; 2],
         })
     }
@@ -308,7 +309,7 @@ impl Engine {
     /// angles (rad).
     pub(super) fn swing_since(&self, rig: &Rig, whisker: usize, angles: &[[f64; 2]]) -> f64 {
         let turns =
-            self.angles(whisker).zip(angles).map(|(now, before)| (now[0] - before[0]).hypot(now[1] - before[1]));
+            self.angles(whisker).zip(angles).map(|(now, before)| math::hypot(now[0] - before[0], now[1] - before[1]));
         swing(&rig.whiskers[whisker].shaft, turns)
     }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Whisker;
 use vibrissa_world::geometry::{Point2, Pose, unit};
 
@@ -21,13 +22,13 @@ pub(super) struct Link {
 impl Link {
     /// The point of the axis at this distance (m) from the near end, and its height above the plane (m).
     pub(super) fn point(&self, along: f64) -> (Point2, f64) {
-        let (sin, cos) = self.elevation.sin_cos();
+        let (sin, cos) = math::sin_cos(self.elevation);
         (self.start + along * cos * unit(self.direction), self.height + along * sin)
     }
 
     /// The distance (m) of a point of the plane from the near end, along the axis.
     pub(super) fn along(&self, point: Point2) -> f64 {
-        (point - self.start).dot(&unit(self.direction)) / self.elevation.cos()
+        (point - self.start).dot(&unit(self.direction)) / math::cos(self.elevation)
     }
 }
 
@@ -64,8 +65,8 @@ impl LinkEnds {
         if let Some(frame) = &mut self.frame {
             *frame *= rotation([rest + vertical, transverse]);
             let axis = *frame * Vector3::x();
-            self.direction = axis.y.atan2(axis.x);
-            elevation = axis.z.atan2(axis.x.hypot(axis.y));
+            self.direction = math::atan2(axis.y, axis.x);
+            elevation = math::atan2(axis.z, math::hypot(axis.x, axis.y));
         } else {
             self.direction += rest + vertical;
         }

@@ -14,6 +14,7 @@
 
 use std::fmt::{self, Write};
 
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Platform, Rig, Shaft, Whisker};
 use vibrissa_world::geometry::{Point2, Pose, Vector2, unit};
 use vibrissa_world::physics::{Physics, ShaftModel, Solver, link_inertia};
@@ -245,8 +246,9 @@ fn write_rigid(xml: &mut String, whisker: &Whisker) -> fmt::Result {
     let links = || (0..shaft.links).map(|link| (shaft.link_mass(link), (link as f64 + 0.5) * shaft.link_length()));
     let mass = BASE_MASS + links().map(|(mass, _)| mass).sum::<f64>();
     let centre = links().map(|(mass, along)| mass * along).sum::<f64>() / mass;
-    let of_links =
-        links().enumerate().map(|(link, (mass, along))| link_inertia(shaft, link) + mass * (along - centre).powi(2));
+    let of_links = links()
+        .enumerate()
+        .map(|(link, (mass, along))| link_inertia(shaft, link) + mass * math::square(along - centre));
     let inertia = BASE_INERTIA + BASE_MASS * centre * centre + of_links.sum::<f64>();
     writeln!(
         xml,

@@ -81,6 +81,7 @@ impl Playground {
             Request::Shapes { scenario } => value(&shapes(&scenario)?),
             Request::Reshape { scenario, change } => Ok(json!({ "scenario": changed(&scenario, &change)? })),
             Request::Advance { ticks, frames, beside } => value(&self.simulation(beside)?.advance(ticks, frames)?),
+            Request::Ticks => Ok(json!({ "lines": self.simulation(false)?.ticks()? })),
             Request::Score { beside } => value(&self.simulation(beside)?.score()?),
         }
     }

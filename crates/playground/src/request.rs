@@ -88,7 +88,9 @@ pub(crate) enum Request {
         #[serde(default)]
         beside: bool,
     },
-    /// Scores the run, which has ended.
+    /// The ticks of the run until now, as `run --ticks` writes them.
+    Ticks,
+    /// Scores the run, which has ended. Then its ticks are gone.
     Score {
         /// True for the run beside the one that the page shows.
         #[serde(default)]

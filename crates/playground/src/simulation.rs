@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use vibrissa_lab::inspect::Breakpoints;
 use vibrissa_lab::report::picture;
 use vibrissa_lab::request::{Input, PolicyInput, TrialRequest};
-use vibrissa_lab::results::Document;
+use vibrissa_lab::results::{Document, tick_lines};
 use vibrissa_lab::run::{Ending, Step, SteppedRun, Trace, Watcher};
 use vibrissa_lab::stream::message::{BreakpointInfo, Frame, Metrics, Piece, ServerMessage};
 use vibrissa_lab::stream::{
@@ -211,6 +211,17 @@ impl Simulation {
             has_ended: self.ending.is_some(),
             breakpoint: self.watch.hit.clone(),
         })
+    }
+
+    /// The ticks until now, as lines of JSON.
+    ///
+    /// # Errors
+    /// If the run has been scored.
+    pub(crate) fn ticks(&self) -> Result<Vec<String>, String> {
+        let run = self.run.as_ref().ok_or_else(scored)?;
+        let friction = self.trial.assumed_rig.sensing.friction;
+        let lines = tick_lines(&self.trial.scene.name, run.trace(), friction);
+        Ok(lines.map(|line| json!(line.versioned(None)).to_string()).collect())
     }
 
     /// Scores the run.

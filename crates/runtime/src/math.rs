@@ -37,6 +37,12 @@ pub fn tan(angle: f64) -> f64 {
     libm::tan(angle)
 }
 
+/// The angle (rad, 0 to π) with this cosine. A NaN outside of −1 to 1.
+#[must_use]
+pub fn acos(cosine: f64) -> f64 {
+    libm::acos(cosine)
+}
+
 /// The angle (rad, −π/2 to π/2) with this tangent.
 #[must_use]
 pub fn atan(tangent: f64) -> f64 {
@@ -83,6 +89,12 @@ pub fn log10(value: f64) -> f64 {
 #[must_use]
 pub fn powf(value: f64, exponent: f64) -> f64 {
     libm::pow(value, exponent)
+}
+
+/// The cube root of a number.
+#[must_use]
+pub fn cbrt(value: f64) -> f64 {
+    libm::cbrt(value)
 }
 
 /// The square of a number.
@@ -157,6 +169,7 @@ mod tests {
                 (sin_cos(x).0, x.sin()),
                 (sin_cos(x).1, x.cos()),
                 (tan(x) / 1e3, x.tan() / 1e3),
+                (acos(x / 20.0), (x / 20.0).acos()),
                 (atan(x), x.atan()),
                 (atan2(y, x), y.atan2(x)),
                 (hypot(x, y), x.hypot(y)),
@@ -165,6 +178,7 @@ mod tests {
                 (ln(x.abs()), x.abs().ln()),
                 (log10(x.abs()), x.abs().log10()),
                 (powf(x.abs(), 0.3), x.abs().powf(0.3)),
+                (cbrt(x), x.cbrt()),
                 (powi(x, 5) / x.powi(5), 1.0),
                 (powi(x, -4) * x.powi(4), 1.0),
                 (square(x), x * x),

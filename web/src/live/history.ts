@@ -1,4 +1,4 @@
-import type { Frame } from "./protocol.ts";
+import type { Frame, MapFrame } from "./protocol.ts";
 import { ENDED } from "./statechart.ts";
 
 /** A time for which one state was active. */
@@ -42,7 +42,7 @@ export class History {
     }
   }
 
-  /** Removes every second one of the older ticks. The next one gets their recorded tips, and the plots that it has not set. */
+  /** Removes every second one of the older ticks. The next one gets their recorded tips, the cells of their maps, and the plots that it has not set. */
   #thin(): void {
     const isRemoved = (index: number): boolean => index < this.#frames.length / 2 && index % 2 === 1;
     this.#frames = this.#frames.flatMap((frame, index, frames) => {
@@ -50,7 +50,12 @@ export class History {
       if (isRemoved(index)) {
         return [];
       }
-      return [before === undefined ? frame : { ...frame, contour: [...before.contour, ...frame.contour], plots: frame.plots.map((value, plot) => value ?? before.plots[plot] ?? null) }];
+      return [before === undefined ? frame : {
+        ...frame,
+        contour: [...before.contour, ...frame.contour],
+        plots: frame.plots.map((value, plot) => value ?? before.plots[plot] ?? null),
+        map: joined(before.map, frame.map),
+      }];
     });
     this.#spans = undefined;
   }
@@ -91,6 +96,11 @@ export class History {
       extend(this.#spans, frame);
     }
   }
+}
+
+/** Two frames of the map as one. */
+function joined(before: MapFrame | null, now: MapFrame | null): MapFrame | null {
+  return before && now ? { ...now, free: [...before.free, ...now.free], blocked: [...before.blocked, ...now.blocked] } : (now ?? before);
 }
 
 /** Adds a tick to the spans. */

@@ -26,6 +26,8 @@ export interface Subject {
   marked?: { name: string; holds: (frame: Frame) => boolean };
   /** Values with a line. */
   levels?: { name: string; value: number }[];
+  /** False in a tick of a run that has no such values. Then there is no plot. */
+  isKnown?: (frame: Frame) => boolean;
   /** Removes the plot. */
   close?: () => void;
 }
@@ -78,8 +80,10 @@ export class Plot implements Panel {
   }
 
   update(view: View): void {
+    const { last } = view.run.history;
+    this.element.hidden = last !== undefined && this.subject.isKnown?.(last) === false;
     const width = this.#width.value;
-    if (width === 0) {
+    if (width === 0 || this.element.hidden) {
       return;
     }
     this.#axis = new TimeAxis(view.from, view.to, LEFT, width - RIGHT);

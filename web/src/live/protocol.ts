@@ -106,7 +106,19 @@ export interface Frame {
   loop: { period: number | null; used: number; overload: boolean } | null;
   messages: string[];
   plots: (number | null)[];
+  map: MapFrame | null;
 }
+
+export interface MapFrame {
+  cell: number;
+  origin: Point;
+  free: CellSpan[];
+  blocked: CellSpan[];
+  route: Point[];
+  target: Point | null;
+}
+
+export type CellSpan = [row: number, from: number, to: number];
 
 export interface Metrics {
   error: number | null;

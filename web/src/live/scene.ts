@@ -36,6 +36,8 @@ export class Scene implements Panel {
   readonly #zoom: Zoom;
   readonly #drawing = element("div", "drawing");
   readonly #close: HTMLButtonElement;
+  readonly #map: HTMLButtonElement;
+  readonly #legend = element("p", "hint map-key", element("span", "free", "proved free"), element("span", "blocked", "surface"), element("span", "route", "route, ◇ what is next"), "The rest is unknown.");
   #isClose = false;
   readonly #width: Width;
   #drawnWidth = 0;
@@ -68,19 +70,23 @@ export class Scene implements Panel {
     this.#drawing.addEventListener("pointerdown", () => this.#watch(false));
     this.#close = button("robot", () => this.#watch(!this.#isClose), "show the surroundings of the robot");
     this.#close.setAttribute("aria-pressed", "false");
+    this.#map = button("map", () => this.#showMap(!this.#isMapShown), "show what the robot knows by touch: free ground, surfaces, route and next target");
+    this.#showMap(true);
+    [this.#map.hidden, this.#legend.hidden] = [true, true];
     const free = (action: () => void) => () => {
       this.#watch(false);
       action();
     };
     const tools = element("div", "tools");
     tools.append(
+      this.#map,
       this.#close,
       button("+", free(() => this.#zoom.by(1.5)), "zoom into the scene"),
       button("−", free(() => this.#zoom.by(1 / 1.5)), "zoom out of the scene"),
       button("whole", free(() => this.#zoom.reset()), "show the whole scene"),
     );
     const note = hello.scene === null ? element("p", "hint", "The scene is not known. Only what the robot has felt is shown.") : "";
-    this.element = element("section", "scene", element("div", "head", element("h2", "", "Scene"), tools), this.#drawing, note);
+    this.element = element("section", "scene", element("div", "head", element("h2", "", "Scene"), tools), this.#drawing, this.#legend, note);
     for (const outline of hello.scene ?? []) {
       outline.points.forEach((point) => this.#world.include(point, 0.05));
     }
@@ -116,6 +122,8 @@ export class Scene implements Panel {
       return;
     }
     this.#track.show(run.history.frames, frame.tick);
+    this.#map.hidden = !this.#track.hasMap;
+    this.#legend.hidden = !this.#track.hasMap || !this.#isMapShown;
     this.#robot(frame);
     this.#other(run, frame, answer);
   }
@@ -186,6 +194,15 @@ export class Scene implements Panel {
     const barb = (turn: number): string => `M${x2} ${y2}l${-5 * Math.cos(angle + turn)} ${-5 * Math.sin(angle + turn)}`;
     return `M${x1} ${y1}L${x2} ${y2}${barb(0.5)}${barb(-0.5)}`;
   }
+
+  /** Shows the map by touch, or not. */
+  #showMap(isShown: boolean): void {
+    this.#isMapShown = isShown;
+    this.#map.setAttribute("aria-pressed", String(isShown));
+    this.#legend.hidden = !isShown;
+    this.#drawing.classList.toggle("mapless", !isShown);
+  }
+  #isMapShown = true;
 
   /** Keeps the robot in the middle, or not. */
   #watch(isClose: boolean): void {

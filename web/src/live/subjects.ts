@@ -18,6 +18,7 @@ export function subjects({ hello }: Run): Subject[] {
       { name: "used", value: ({ loop }) => loop?.used },
     ],
     marked: { name: "overload", holds: ({ loop }) => loop?.overload ?? false },
+    isKnown: ({ loop }) => loop !== null,
     levels: [{ name: "control period", value: hello.control_period }],
   };
   const contour: Subject = {

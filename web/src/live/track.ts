@@ -1,5 +1,5 @@
 import { set, svg } from "../shared/svg.ts";
-import type { Frame, Point, Pose } from "./protocol.ts";
+import type { CellSpan, Frame, MapFrame, Point, Pose } from "./protocol.ts";
 import type { World } from "./world.ts";
 
 /** The number of ticks in a part of the picture. */
@@ -8,29 +8,43 @@ const PART = 300;
 const WRONG = 1e-3;
 /** The least distance (m) of two points of a path. */
 const STEP = 0.004;
+/** The width (px) by which cells overlap. */
+const OVERLAP = 0.3;
+/** Half the width (px) of the diamond of a target. */
+const TARGET = 6;
+
+/** The kinds of lines, those below first. What was proved free is no longer blocked. */
+const KINDS = ["blocked", "free", "trace", "contour", "contour wrong"] as const;
+type Kind = (typeof KINDS)[number];
 
 interface Part {
   /** What is drawn. */
   key: string;
-  path: SVGPathElement;
-  contour: SVGPathElement;
-  wrong: SVGPathElement;
+  paths: Record<Kind, SVGPathElement>;
 }
 
-/** The path of the robot and the recorded contour. Complete parts of the picture stay as they are while it grows. */
+/** The map by touch, the path of the robot and the recorded contour. Complete parts of the picture stay as they are while it grows. */
 export class Track {
-  readonly group = svg("g");
+  readonly group: SVGGElement;
   readonly #world: World;
+  readonly #layers = KINDS.map((kind) => svg("g", { class: kind === "free" || kind === "blocked" ? "map" : "" }));
+  readonly #route = svg("path", { class: "route" });
+  readonly #target = svg("path", { class: "route" });
   #parts: Part[] = [];
 
   constructor(world: World) {
     this.#world = world;
+    const route = svg("g", { class: "map" }, this.#route, this.#target);
+    this.group = svg("g", {}, ...this.#layers, route);
   }
+
+  /** True if the run has a map by touch. */
+  hasMap = false;
 
   /** Forgets the picture, because its scale has changed. */
   clear(): void {
     this.#parts = [];
-    this.group.replaceChildren();
+    this.#layers.forEach((layer) => layer.replaceChildren());
   }
 
   /** Draws the past until a tick. */
@@ -47,20 +61,45 @@ export class Track {
         this.#draw(part, ticks.filter((frame) => frame.tick <= tick));
       }
     }
+    const map = frames.findLast((frame) => frame.tick <= tick && frame.map !== null)?.map ?? null;
+    this.hasMap ||= map !== null;
+    this.#wanted(map);
   }
 
-  #draw({ path, contour, wrong }: Part, ticks: readonly Frame[]): void {
-    const tips = ticks.slice(0, PART).flatMap(({ contour }) => contour);
+  #draw({ paths }: Part, ticks: readonly Frame[]): void {
+    const own = ticks.slice(0, PART);
+    const tips = own.flatMap(({ contour }) => contour);
+    const maps = own.flatMap(({ map }) => map ?? []);
     const points = (isWrong: boolean): Point[] => tips.filter(({ error }) => (error !== null && error > WRONG) === isWrong).map(({ point }) => point);
-    set(path, { d: this.#world.line(thinned(ticks.map(({ pose }) => pose))) });
-    set(contour, { d: this.#world.dots(points(false)) });
-    set(wrong, { d: this.#world.dots(points(true)) });
+    set(paths.trace, { d: this.#world.line(thinned(ticks.map(({ pose }) => pose))) });
+    set(paths.contour, { d: this.#world.dots(points(false)) });
+    set(paths["contour wrong"], { d: this.#world.dots(points(true)) });
+    set(paths.free, { d: maps.map((map) => this.#ground(map, map.free)).join("") });
+    set(paths.blocked, { d: maps.map((map) => this.#ground(map, map.blocked)).join("") });
+  }
+
+  /** Cells as rectangles. They overlap a little, so that no seams are seen between them. */
+  #ground({ cell, origin: [x, y] }: MapFrame, spans: readonly CellSpan[]): string {
+    const size = cell * this.#world.scale;
+    return spans.map(([row, from, to]) => {
+      const [left, top] = this.#world.px([x + from * cell, y + (row + 1) * cell]);
+      const width = ((to - from + 1) * size + OVERLAP).toFixed(2);
+      return `M${left.toFixed(2)} ${top.toFixed(2)}h${width}v${(size + OVERLAP).toFixed(2)}h-${width}z`;
+    }).join("");
+  }
+
+  /** The route and the next target of the last map up to a tick. */
+  #wanted(map: MapFrame | null): void {
+    const { route, target } = map ?? { route: [], target: null };
+    set(this.#route, { d: this.#world.line(route) });
+    const [x, y] = target === null ? [0, 0] : this.#world.px(target);
+    set(this.#target, { d: target === null ? "" : `M${x} ${y - TARGET}l${TARGET} ${TARGET}l${-TARGET} ${TARGET}l${-TARGET} ${-TARGET}z` });
   }
 
   #added(): Part {
-    const [path, contour, wrong] = [svg("path", { class: "trace" }), svg("path", { class: "contour" }), svg("path", { class: "contour wrong" })];
-    this.group.append(path, contour, wrong);
-    return { key: "", path, contour, wrong };
+    const paths = Object.fromEntries(KINDS.map((kind) => [kind, svg("path", { class: kind })])) as Record<Kind, SVGPathElement>;
+    this.#layers.forEach((layer, index) => layer.append(paths[KINDS[index] ?? "trace"]));
+    return { key: "", paths };
   }
 }
 

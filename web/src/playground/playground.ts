@@ -165,30 +165,31 @@ export class Playground {
         this.#start();
       }
     }, true);
-    addEventListener("hashchange", () => void this.#openLink().then((isOpen) => {
-      if (isOpen) {
-        this.#start();
-      }
-    }));
+    addEventListener("hashchange", () => void this.#openLink().then((isOpen) => isOpen || this.#refuseLink()));
     if (!(await this.#openLink())) {
       this.#load(policies[0]?.text ?? "", scenarios[0]?.text ?? "");
+      this.#start();
+      this.#refuseLink();
     }
-    this.#start();
   }
 
-  /** Takes what the link of the page holds. False if it holds nothing. */
+  /** Runs what the link of the page holds. False if it holds nothing that can be read. */
   async #openLink(): Promise<boolean> {
-    if (location.hash === "") {
-      return false;
-    }
-    const shared = await decode(location.hash);
+    const link = location.hash;
+    const shared = link === "" ? undefined : await decode(link);
     if (shared === undefined) {
-      this.#tell("The link holds no policy that this page can read.");
       return false;
     }
     this.#load(shared.policy, shared.scenario ?? this.#catalog?.scenarios[0]?.text ?? "");
     this.#parameters.take(shared.set);
+    this.#start();
     return true;
+  }
+
+  #refuseLink(): void {
+    if (location.hash !== "") {
+      this.#tell("The link holds no policy that this page can read.");
+    }
   }
 
   /** Shows texts. */

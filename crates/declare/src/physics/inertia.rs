@@ -1,5 +1,6 @@
 //! Moments of inertia of the links of a shaft.
 
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Shaft;
 
 /// The smallest moment of inertia (kg m²) of a link. MuJoCo rejects smaller ones.
@@ -35,5 +36,5 @@ pub fn light_shaft(shaft: &Shaft) -> Option<f64> {
 
 /// The moment of inertia (kg m²) of a link as a slender rod.
 fn slender_rod(shaft: &Shaft, link: usize) -> f64 {
-    shaft.link_mass(link) * shaft.link_length().powi(2) / 12.0
+    shaft.link_mass(link) * math::square(shaft.link_length()) / 12.0
 }

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, ContactSet, DeflectionPolynomial};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Whisker;
 
 use super::hinge_fit::HingeFit;
@@ -111,7 +112,7 @@ pub fn fit(whisker: &Whisker, sets: &[ContactSet], about: String) -> Fitted {
 /// Weight of a set for the fits that assume a surface parallel to the heading.
 fn weight(whisker: &Whisker, set: &ContactSet) -> f64 {
     let off = set.normal.map_or(0.0, |normal| (normal - whisker.usual_normal()) / SURFACE_DEVIATION);
-    (-0.5 * off * off).exp()
+    math::exp(-0.5 * off * off)
 }
 
 /// The sets with sufficient weight.

@@ -1,6 +1,7 @@
 //! Stiffness of a base hinge from contacts at known positions.
 
 use vibrissa_runtime::calibration::ContactSet;
+use vibrissa_runtime::math;
 use vibrissa_runtime::percept::TipTable;
 use vibrissa_runtime::rig::Whisker;
 use vibrissa_world::geometry::{Vector2, rotate, unit};
@@ -40,15 +41,15 @@ impl HingeFit {
         // A set beyond the range of the statics counts as an error of a centimetre.
         let worst = 1e-2;
         let cost = |log: f64| -> f64 {
-            let stiffness = self.stiffness * log.exp();
-            sets.iter().map(|set| self.error(set, stiffness).unwrap_or(worst).min(worst).powi(2)).sum()
+            let stiffness = self.stiffness * math::exp(log);
+            sets.iter().map(|set| math::square(self.error(set, stiffness).unwrap_or(worst).min(worst))).sum()
         };
         let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
         // With a wrong hinge, all sets beyond the range have the same error, and the gradient is zero.
-        let step = (SPAN.1 / SPAN.0).ln() / f64::from(TRIED_VALUES);
-        let tried = (0..=TRIED_VALUES).map(|index| SPAN.0.ln() + step * f64::from(index));
+        let step = math::ln(SPAN.1 / SPAN.0) / f64::from(TRIED_VALUES);
+        let tried = (0..=TRIED_VALUES).map(|index| math::ln(SPAN.0) + step * f64::from(index));
         let best = tried.map(|log| (log, cost(log))).min_by(|(_, a), (_, b)| a.total_cmp(b))?.0;
-        let (mut low, mut high) = ((best - step).max(SPAN.0.ln()), (best + step).min(SPAN.1.ln()));
+        let (mut low, mut high) = ((best - step).max(math::ln(SPAN.0)), (best + step).min(math::ln(SPAN.1)));
         let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
         let (mut cost_a, mut cost_b) = (cost(a), cost(b));
         for _ in 0..STEPS {
@@ -63,8 +64,8 @@ impl HingeFit {
             }
         }
         let found = f64::midpoint(low, high);
-        let is_within = found - SPAN.0.ln() > AT_END && SPAN.1.ln() - found > AT_END;
-        is_within.then(|| self.stiffness * found.exp())
+        let is_within = found - math::ln(SPAN.0) > AT_END && math::ln(SPAN.1) - found > AT_END;
+        is_within.then(|| self.stiffness * math::exp(found))
     }
 
     /// Distance between the position of a set and the computed position (m), with its normal, or with the best normal

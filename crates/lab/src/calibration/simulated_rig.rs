@@ -2,6 +2,7 @@
 
 use vibrissa_mujoco::{MujocoError, MujocoWorld};
 use vibrissa_runtime::calibration::ContactSet;
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Platform, Rig, Whisker};
 use vibrissa_runtime::signal::Command;
 use vibrissa_world::geometry::{Point2, Pose, ShapeError, Vector2, circle, rotate, wrap};
@@ -172,7 +173,7 @@ impl CalibrationRig {
             ContactSet {
                 contact_base: rotate(from_base, -self.body.heading),
                 base_angle: sum / f64::from(ticks),
-                normal: Some(wrap(normal.y.atan2(normal.x) - self.body.heading)),
+                normal: Some(wrap(math::atan2(normal.y, normal.x) - self.body.heading)),
                 on_shaft: contact_length < self.length - TIP,
             }
         }))

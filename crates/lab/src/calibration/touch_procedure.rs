@@ -3,6 +3,7 @@
 use vibrissa_runtime::calibration::{
     PlannedTouch, Stroke, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal,
 };
+use vibrissa_runtime::math;
 use vibrissa_runtime::mechanics::Obstacle;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
@@ -115,8 +116,8 @@ impl Around {
     /// Moves the platform so that the pin leaves it, passes it and is in the direction of a tip (m, body frame).
     fn bring_pin(&self, pilot: &mut ArrayPilot<'_>, pin: Pin, tip: Vector2) -> Result<(), Fault> {
         let from = rotate(pin.centre - pilot.position(), -pilot.heading());
-        let start = from.y.atan2(from.x);
-        let turn = turn_between(start, tip.y.atan2(tip.x));
+        let start = math::atan2(from.y, from.x);
+        let turn = turn_between(start, math::atan2(tip.y, tip.x));
         let steps = (turn.abs() / AROUND_STEP).ceil();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most eleven steps")]
         for step in 0..=steps as u32 {
@@ -333,7 +334,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
     /// The noise of the poses. That of the mean over a rest is at most as large as that of a single pose.
     fn noise(&self) -> TouchNoise {
         let TouchNoise { position, heading } = self.pilot.noise;
-        TouchNoise { position: position.hypot(MODEL_POSITION), heading }
+        TouchNoise { position: math::hypot(position, MODEL_POSITION), heading }
     }
 
     /// The refusal of a whisker that did not respond, if another one did.

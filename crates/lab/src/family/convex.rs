@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::layout::{circle, polygon};
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{Point2, Segment, Vector2, perpendicular, rotate, unit};
 
 /// A convex object: all points within a radius of a polygon, which may be a line or a point.
@@ -24,7 +25,7 @@ impl Convex {
 
     /// A box around the origin with this half diagonal (m). `aspect` is its width as a share of its length.
     pub(super) fn rectangle(half_diagonal: f64, aspect: f64, heading: f64) -> Self {
-        let half = half_diagonal / 1.0_f64.hypot(aspect);
+        let half = half_diagonal / math::hypot(1.0, aspect);
         let corner = |(x, y): (f64, f64)| Point2::from(rotate(Vector2::new(half * x, half * aspect * y), heading));
         Self { corners: [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner).to_vec(), radius: 0.0 }
     }

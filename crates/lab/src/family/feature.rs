@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{Contour, Path, Point2, Pose, circle, perpendicular, polygon};
 
 /// The tangent of the largest lean of a feature, 30°.
@@ -90,7 +91,7 @@ impl Feature {
         let s = self.place * base.length();
         let outwards = -perpendicular(base.tangent_at(s));
         // x is along the outline, y outwards.
-        let heading = outwards.y.atan2(outwards.x) - FRAC_PI_2 + self.lean;
+        let heading = math::atan2(outwards.y, outwards.x) - FRAC_PI_2 + self.lean;
         Some(local(tool, width, depth, factor)?.transformed(&Pose { position: base.point_at(s), heading }))
     }
 }

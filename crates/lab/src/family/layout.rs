@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::outline::{turn, turning_angle};
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{Contour, Harmonic, Piece, Point2, Pose, Vector2};
 
 /// A scene without its speed and without the deviation of its start.
@@ -154,7 +155,7 @@ pub(super) fn polar(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Stri
 /// a sharp corner. Errors of a path accumulate, so its numbers keep all digits.
 pub(super) fn rounded_polygon(corners: &[Vector2], radii: &[f64], centre: Point2) -> String {
     // The length of the adjacent sides that the rounding of a corner replaces.
-    let taken = |k: usize| radii[k % radii.len()] * (0.5 * turn(corners, k).2).tan();
+    let taken = |k: usize| radii[k % radii.len()] * math::tan(0.5 * turn(corners, k).2);
     let mut moves = Vec::new();
     for k in 0..corners.len() - 1 {
         let ((into, _, angle), radius) = (turn(corners, k + 1), radii[k + 1]);
@@ -166,7 +167,7 @@ pub(super) fn rounded_polygon(corners: &[Vector2], radii: &[f64], centre: Point2
         });
     }
     let (first, out) = (centre + corners[0], turn(corners, 0).1);
-    let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, out.y.atan2(out.x));
+    let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, math::atan2(out.y, out.x));
     format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
 }
 
@@ -188,7 +189,7 @@ pub(super) fn outline(outline: &Contour) -> String {
         heading = Some(piece.tangent_at(piece.length()));
     }
     let (first, along) = (outline.point_at(0.0), outline.tangent_at(0.0));
-    let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, along.y.atan2(along.x));
+    let start = format!("{{position: [{} m, {} m], heading: {} rad}}", first.x, first.y, math::atan2(along.y, along.x));
     format!("path: {{start: {start}, moves: [{}], closed: true}}", moves.join(", "))
 }
 

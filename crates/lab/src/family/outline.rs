@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::sampler::Sampler;
 use vibrissa_declare::catalogue::Parameter;
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{Contour, Piece, Vector2, perpendicular, unit};
 
 /// Largest share of a side that the rounding of one of its ends replaces.
@@ -45,7 +46,7 @@ pub(super) fn turn(corners: &[Vector2], k: usize) -> (Vector2, Vector2, f64) {
 
 /// The angle (rad) from a direction to another, positive to the left.
 pub(super) fn turning_angle(from: Vector2, to: Vector2) -> f64 {
-    from.perp(&to).atan2(from.dot(&to))
+    math::atan2(from.perp(&to), from.dot(&to))
 }
 
 /// Points on a convex polygon, counter-clockwise, whose corners are rounded by these radii (m).
@@ -53,8 +54,8 @@ pub(super) fn rounded(corners: &[Vector2], radii: &[f64]) -> Vec<Vector2> {
     let corner = |k: usize| {
         let (into, out, turn) = turn(corners, k);
         let inwards = (out.normalize() - into.normalize()).normalize();
-        let centre = corners[k] + radii[k] / (0.5 * turn).cos() * inwards;
-        arc(radii[k], into.y.atan2(into.x) - FRAC_PI_2, turn).map(move |point| centre + point)
+        let centre = corners[k] + radii[k] / math::cos(0.5 * turn) * inwards;
+        arc(radii[k], math::atan2(into.y, into.x) - FRAC_PI_2, turn).map(move |point| centre + point)
     };
     (0..corners.len()).flat_map(corner).collect()
 }
@@ -75,7 +76,7 @@ pub(super) fn fillet(outline: &Contour, radii: [f64; 2], share: f64) -> Contour 
             let (Piece::Segment(into), Piece::Segment(out)) = (before, after) else { return (0.0, 0.0) };
             let turn = turning_angle(into.tangent(), out.tangent());
             count += 1.0;
-            let room = ROUNDED * into.length().min(out.length()) / (0.5 * turn.abs()).tan();
+            let room = ROUNDED * into.length().min(out.length()) / math::tan(0.5 * turn.abs());
             let radius = radii[usize::from(turn < 0.0)].min(room);
             let is_rounded = (GOLDEN * count).fract() < share && radius >= MIN_RADIUS;
             (turn, if is_rounded { radius } else { 0.0 })
@@ -88,12 +89,12 @@ pub(super) fn fillet(outline: &Contour, radii: [f64; 2], share: f64) -> Contour 
             continue;
         };
         let [(before, at_start), (turn, radius)] = [corners[index], corners[(index + 1) % pieces.len()]];
-        let taken = |(turn, radius): (f64, f64)| radius * (0.5 * turn.abs()).tan();
+        let taken = |(turn, radius): (f64, f64)| radius * math::tan(0.5 * turn.abs());
         let end = side.point_at(side.length() - taken((turn, radius)));
         rounded.push(Piece::segment(side.point_at(taken((before, at_start))), end));
         if radius > 0.0 {
             let (along, left) = (side.tangent(), turn.signum());
-            let from = along.y.atan2(along.x) - left * FRAC_PI_2;
+            let from = math::atan2(along.y, along.x) - left * FRAC_PI_2;
             rounded.push(Piece::arc(end + left * radius * perpendicular(along), radius, from, turn));
         }
     }

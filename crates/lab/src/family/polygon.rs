@@ -9,6 +9,7 @@ use super::sampler::Sampler;
 use vibrissa_declare::catalogue::Parameter;
 use vibrissa_declare::catalogue::common::SIDE;
 use vibrissa_declare::catalogue::polygon::{CORNERS, PHASE, RADIUS, ROUNDINGS, SHIFTS};
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::Vector2;
 
 /// Largest share of a side that its two rounded corners replace.
@@ -38,7 +39,7 @@ pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
 /// The radius (m) of a corner. Of random corners every other one is rounded, the rest have 0.
 fn rounding(sampler: &mut Sampler<'_>, corners: &[Vector2], k: usize, parameter: &Parameter) -> f64 {
     let (into, out, turn) = turn(corners, k);
-    let room = 0.5 * ROUNDED * into.norm().min(out.norm()) / (0.5 * turn).tan();
+    let room = 0.5 * ROUNDED * into.norm().min(out.norm()) / math::tan(0.5 * turn);
     let wanted = sampler.number_or(parameter, |sampler| {
         let radius = sampler.between(0.02, 0.1);
         if sampler.count(0, 1) == 0 { 0.0 } else { radius }

@@ -9,6 +9,7 @@ use vibrissa_declare::catalogue::rooms::{
     ASPECTS, AT_HEADING, AT_X, AT_Y, CONTACTS, CORNERS, DOOR_PLACES, DOOR_WIDTHS, DOORS, KINDS, LENGTH, OBJECTS,
     PHASES, SIZES, THICKNESS, TURN, WIDTH, XS, YS,
 };
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_world::geometry::{Point2, Pose, Vector2, rotate};
 
@@ -49,7 +50,7 @@ pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
     let objects = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| wanted(sampler, k));
     for object in objects.iter().take(sampler.whole(&OBJECTS) as usize) {
         let place = room.floor.position(object.place, 0.0);
-        let sizes = (0..=REDUCTIONS).map(|count| SMALLER.powi(count));
+        let sizes = (0..=REDUCTIONS).map(|count| math::powi(SMALLER, count));
         let tries = sizes.flat_map(|size| [(size, object.against), (size, Against::Nothing)]);
         let _ = tries
             .map(|(size, against)| (object.outline(size), against))
@@ -116,7 +117,7 @@ fn path_length(rig: &Rig, size: Vector2, thickness: f64, objects: &[Convex]) -> 
     let tips = rig
         .whiskers
         .iter()
-        .map(|whisker| (whisker.base_body.y + whisker.shaft.length * whisker.direction_body.sin()).abs());
+        .map(|whisker| (whisker.base_body.y + whisker.shaft.length * math::sin(whisker.direction_body)).abs());
     let lane = tips.fold(0.0, f64::max) - 0.5 * rig.platform.tail_width;
     let area = size.x * size.y - objects.iter().map(Convex::area).sum::<f64>();
     let walls = 4.0 * (size.x + size.y) + 8.0 * thickness;

@@ -9,6 +9,7 @@ use vibrissa_declare::catalogue::common::SIDE;
 use vibrissa_declare::catalogue::shapes::{
     ASPECT, BASE, CONCAVE_RADIUS, CONVEX_RADIUS, DEPTHS, KINDS, LEANS, PLACES, ROUNDED, SIZE, TEETH, TURN, WIDTHS,
 };
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{
     Contour, Piece, Point2, Pose, Vector2, circle, perpendicular, rounded_rectangle, unite,
 };
@@ -76,7 +77,7 @@ fn with_features(base: &Contour, features: &[Feature]) -> (Contour, Vec<&'static
     let mut names = Vec::new();
     for feature in features {
         let Some(tool) = &feature.tool else { continue };
-        let sizes = (0..=REDUCTIONS).map(|count| SMALLER.powi(count));
+        let sizes = (0..=REDUCTIONS).map(|count| math::powi(SMALLER, count));
         let changed = sizes.filter_map(|size| feature.outline(base, size)).find_map(|outline| {
             let found = if tool.adds() {
                 unite(&[shape.clone(), outline]).ok()?.into_iter().map(|united| united.outline).collect()

@@ -7,6 +7,7 @@ use super::position::{ahead, beside};
 use super::sampler::Sampler;
 use vibrissa_declare::catalogue::common::SIDE;
 use vibrissa_declare::catalogue::smooth_curve::{PHASES, RADIUS, WAVES};
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{Harmonic, Vector2, unit};
 
 /// Largest curvature of a convex part (1/m). A tip that slides around it does not snap off.
@@ -56,7 +57,7 @@ pub(super) fn lay(sampler: &mut Sampler<'_>) -> Layout {
 fn curvatures(radius: f64, harmonics: &[Harmonic]) -> (f64, f64) {
     let curvature = |angle| {
         let [r, slope, bend] = distance(radius, harmonics, angle);
-        (r * r + 2.0 * slope * slope - r * bend) / (r * r + slope * slope).powf(1.5)
+        (r * r + 2.0 * slope * slope - r * bend) / math::powf(r * r + slope * slope, 1.5)
     };
     angles()
         .map(curvature)
@@ -67,7 +68,7 @@ fn curvatures(radius: f64, harmonics: &[Harmonic]) -> (f64, f64) {
 fn distance(radius: f64, harmonics: &[Harmonic], angle: f64) -> [f64; 3] {
     harmonics.iter().fold([radius, 0.0, 0.0], |[r, slope, bend], &Harmonic { order, amplitude, phase }| {
         let order = f64::from(order);
-        let (sin, cos) = (order * angle + phase).sin_cos();
+        let (sin, cos) = math::sin_cos(order * angle + phase);
         [r + amplitude * cos, slope - order * amplitude * sin, bend - order * order * amplitude * cos]
     })
 }

@@ -8,6 +8,7 @@ use foxglove::messages::{
     Color, FrameTransform, LinePrimitive, PackedElementField, Point3, PointCloud, Pose, PoseInFrame, Quaternion,
     SceneEntity, SceneUpdate, Timestamp, Vector3, line_primitive,
 };
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 
 use crate::run::TickRecord;
@@ -97,8 +98,8 @@ impl View {
     /// The pose of the platform, as transform and as pose.
     pub(super) fn pose(tick: &TickRecord) -> (FrameTransform, PoseInFrame) {
         let [x, y] = [tick.body.position.x, tick.body.position.y].map(rounded);
-        let half = tick.body.heading.sin_cos().0.atan2(tick.body.heading.cos()) / 2.0;
-        let rotation = Quaternion { x: 0.0, y: 0.0, z: half.sin(), w: half.cos() };
+        let half = math::atan2(math::sin_cos(tick.body.heading).0, math::cos(tick.body.heading)) / 2.0;
+        let rotation = Quaternion { x: 0.0, y: 0.0, z: math::sin(half), w: math::cos(half) };
         let translation = Vector3 { x, y, z: 0.0 };
         let timestamp = Some(timestamp(tick.time));
         (
@@ -272,8 +273,8 @@ mod tests {
             let body = BodyPose { position: Point2::new(x, y), heading };
             let (transform, pose) = View::pose(&tick(body, Point2::origin()));
             let rotation = transform.rotation.unwrap();
-            let turned = 2.0 * rotation.z.atan2(rotation.w);
-            prop_assert!((turned - heading).sin().abs() < 1e-9 && (turned - heading).cos() > 0.0);
+            let turned = 2.0 * math::atan2(rotation.z, rotation.w);
+            prop_assert!(math::sin(turned - heading).abs() < 1e-9 && math::cos(turned - heading) > 0.0);
             prop_assert_eq!(pose.pose.unwrap().orientation, transform.rotation);
             prop_assert!((transform.translation.unwrap().x - x).abs() <= RESOLUTION);
         }

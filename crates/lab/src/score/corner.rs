@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::run::Trace;
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{Contour, ContourSet, Corner, Point2, Vector2, perpendicular, rotate, turn_between};
 
 use super::tip::{valid_tips, whiskers};
@@ -138,9 +139,9 @@ fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[O
     let incoming = rotate(outgoing, -corner.turn);
     let before = Line::fitted(outline, sharp, corner, felt, incoming, -1.0)?;
     let after = Line::fitted(outline, sharp, corner, felt, outgoing, 1.0)?;
-    let turn = before.direction.perp(&after.direction).atan2(before.direction.dot(&after.direction));
-    let sine = turn.sin();
-    if sine.abs() < MIN_ANGLE.sin() {
+    let turn = math::atan2(before.direction.perp(&after.direction), before.direction.dot(&after.direction));
+    let sine = math::sin(turn);
+    if sine.abs() < math::sin(MIN_ANGLE) {
         return None;
     }
     let along = (after.point - before.point).perp(&after.direction) / sine;

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use vibrissa_runtime::math;
+
 use super::{Statistics, Tip, TipOffset};
 
 /// The distances of a run's tip estimates from the nearest surface, over all whiskers, in metres.
@@ -89,7 +91,7 @@ fn bias_and_scatter(tips: &[Tip]) -> (Option<f64>, Option<f64>) {
     let count: usize = whiskers.iter().map(Statistics::count).sum();
     let bias: f64 = whiskers.iter().map(|whisker| whisker.count() as f64 * whisker.mean().abs()).sum();
     // Each mean takes one degree of freedom.
-    let squares = |whisker: &Statistics| Some((whisker.count() - 1) as f64 * whisker.std()?.powi(2));
+    let squares = |whisker: &Statistics| Some((whisker.count() - 1) as f64 * math::square(whisker.std()?));
     let squares: f64 = whiskers.iter().filter_map(squares).sum();
     let freedom = count - whiskers.len();
     ((count > 0).then(|| bias / count as f64), (freedom > 0).then(|| (squares / freedom as f64).sqrt()))

@@ -151,6 +151,7 @@ fn sagitta(length: f64, chord: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use vibrissa_runtime::math;
 
     use super::*;
 
@@ -196,7 +197,7 @@ mod tests {
             };
             Sample { place: Point2::new(s, foot.distance), foot }
         };
-        let length = 1.0_f64.hypot(0.01);
+        let length = math::hypot(1.0, 0.01);
         let greatest = maximum(length, 0.0, 1e-5, |s| beside(s / length), |_, _, _| None);
         assert!((greatest - 0.11).abs() < 1e-12 && samples.get() == 2, "{greatest} after {} samples", samples.get());
     }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use vibrissa_runtime::map::{CellSpan, Map};
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{BoundingBox, Contour, ContourSet, Point2};
 
 /// Depth (m) in an object up to which a free cell is within the accuracy of the map.
@@ -33,7 +34,7 @@ impl MapFigures {
         Self {
             free: map.free_area(),
             wrong_free: wrong_free_area(map, surfaces),
-            unknown: unknown.len() as f64 * map.block_size().powi(2),
+            unknown: unknown.len() as f64 * math::square(map.block_size()),
             unknown_near: densest(&unknown),
             is_complete: map.is_complete(),
         }

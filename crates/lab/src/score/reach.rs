@@ -11,6 +11,7 @@ use super::coverage::traced_outlines;
 use super::enclosure::Enclosure;
 use super::isolated::{is_convex, lies_beyond_wall};
 use super::outlines::{Outlines, inner_radius, middle_of};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_world::geometry::{Contour, Point2, Pose, Vector2, perpendicular, rotate};
 use vibrissa_world::scene::Truth;
@@ -164,7 +165,7 @@ impl<'s> Search<'s> {
             self.outlines.is_open(point, base)
                 && (0..STRAIGHT_HEADINGS).any(|index| {
                     let heading = TAU * f64::from(index) / f64::from(STRAIGHT_HEADINGS);
-                    self.has_pose(base, heading + normal.y.atan2(normal.x))
+                    self.has_pose(base, heading + math::atan2(normal.y, normal.x))
                 })
         })
     }

@@ -3,6 +3,7 @@
 use super::tip::whiskers;
 use crate::run::{TickRecord, Trace};
 use vibrissa_runtime::geometry::wrap;
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_world::geometry::Point2;
 
@@ -60,7 +61,7 @@ pub fn responses(trace: &Trace, rig: &Rig) -> Vec<Response> {
 /// The angle (rad) at the base of a whisker between the direction of a tip and that of the straight shaft.
 fn bend(tick: &TickRecord, whisker: &Whisker, tip_world: Point2) -> f64 {
     let tip = tick.body.point_from_world(tip_world) - whisker.base_body;
-    wrap(tip.y.atan2(tip.x) - whisker.direction_body)
+    wrap(math::atan2(tip.y, tip.x) - whisker.direction_body)
 }
 
 /// The slope of the second number over the first, by least squares. `None` if the first is constant.
@@ -68,7 +69,7 @@ fn slope(pairs: &[(f64, f64)]) -> Option<f64> {
     let count = pairs.len() as f64;
     let mean = |part: fn(&(f64, f64)) -> f64| pairs.iter().map(part).sum::<f64>() / count;
     let (first, second) = (mean(|pair| pair.0), mean(|pair| pair.1));
-    let square: f64 = pairs.iter().map(|pair| (pair.0 - first).powi(2)).sum();
+    let square: f64 = pairs.iter().map(|pair| math::square(pair.0 - first)).sum();
     let product: f64 = pairs.iter().map(|pair| (pair.0 - first) * (pair.1 - second)).sum();
     (square > 0.0).then(|| product / square)
 }

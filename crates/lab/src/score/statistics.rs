@@ -1,6 +1,7 @@
 //! Statistics of a set of numbers.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use vibrissa_runtime::math;
 
 /// Confidence level of an interval of a mean.
 const CONFIDENCE: f64 = 0.95;
@@ -44,7 +45,7 @@ impl Statistics {
     #[must_use]
     pub fn std(&self) -> Option<f64> {
         let mean = self.mean();
-        let squares: f64 = self.sorted.iter().map(|value| (value - mean).powi(2)).sum();
+        let squares: f64 = self.sorted.iter().map(|value| math::square(value - mean)).sum();
         (self.count() > 1).then(|| (squares / (self.count() - 1) as f64).sqrt())
     }
 
@@ -110,9 +111,9 @@ mod tests {
             let count = values.len() as f64;
             prop_assert!((statistics.mean() * count - values.iter().sum::<f64>()).abs() < 1e-9);
             // The variance as half of the mean squared difference of all pairs does not use the mean.
-            let pairs = values.iter().flat_map(|a| values.iter().map(move |b| (a - b).powi(2))).sum::<f64>();
+            let pairs = values.iter().flat_map(|a| values.iter().map(move |b| math::square(a - b))).sum::<f64>();
             let variance = 0.5 * pairs / (count * (count - 1.0));
-            prop_assert!((statistics.std().unwrap().powi(2) - variance).abs() < 1e-8 * variance.max(1.0));
+            prop_assert!((math::square(statistics.std().unwrap()) - variance).abs() < 1e-8 * variance.max(1.0));
             for (percent, least) in [(0.0, 0.0), (25.0, 0.25), (95.0, 0.95), (100.0, 1.0)] {
                 let bound = statistics.percentile(percent);
                 let below = values.iter().filter(|&&value| value <= bound + 1e-9).count() as f64;

@@ -3,6 +3,7 @@
 use vibrissa_runtime::rig::Rig;
 
 use super::guards::GuardNumbers;
+use super::map::MapGrowth;
 use super::message::{ChartInfo, ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
 use super::shadow::Shadow;
 use super::shape::shaft_points;
@@ -26,6 +27,7 @@ pub struct Frames {
     spreads: (f64, usize),
     /// The coverage, if the scene is known.
     coverage: Option<CoverageTracker>,
+    map: MapGrowth,
 }
 
 impl Frames {
@@ -33,7 +35,7 @@ impl Frames {
     #[must_use]
     pub fn new(rig: Rig, bound: Vec<usize>, truth: Option<Truth>) -> Self {
         let coverage = truth.as_ref().map(|truth| CoverageTracker::new(truth.reference.clone()));
-        Self { rig, bound, truth, errors: (0.0, 0), spreads: (0.0, 0), coverage }
+        Self { rig, bound, truth, errors: (0.0, 0), spreads: (0.0, 0), coverage, map: MapGrowth::default() }
     }
 
     /// The frame of the newest tick of a trace. `None` if it has none.
@@ -67,6 +69,7 @@ impl Frames {
             timing,
             messages,
             plots: trace.plots.iter().map(plot).collect(),
+            map: shadow.control().map().and_then(|map| self.map.frame(index, map)).map(Box::new),
         })
     }
 

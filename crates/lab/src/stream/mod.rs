@@ -7,6 +7,7 @@ mod counterfactual;
 mod frame;
 mod guards;
 mod hello;
+mod map;
 pub mod message;
 mod sample_store;
 mod setup;

@@ -1,6 +1,7 @@
 //! A parameter that is tuned.
 
 use vibrissa_runtime::machine::{Parameter, Program};
+use vibrissa_runtime::math;
 use vibrissa_runtime::units::{Dimension, format_si, parse_quantity};
 
 /// Ranges with a larger ratio of their ends have a logarithmic scale.
@@ -80,7 +81,7 @@ impl Axis {
     /// The coordinate (0 to 1) of a value (SI).
     pub(crate) fn coordinate(&self, value: f64) -> f64 {
         let share = if self.is_logarithmic {
-            (value / self.low).ln() / (self.high / self.low).ln()
+            math::ln(value / self.low) / math::ln(self.high / self.low)
         } else {
             (value - self.low) / (self.high - self.low)
         };
@@ -90,7 +91,7 @@ impl Axis {
     /// The value at a coordinate (0 to 1), as text and in SI units. The text is short, and reads as exactly this value.
     pub(crate) fn value(&self, coordinate: f64) -> (String, f64) {
         let value = if self.is_logarithmic {
-            self.low * (self.high / self.low).powf(coordinate)
+            self.low * math::powf(self.high / self.low, coordinate)
         } else {
             self.low + coordinate * (self.high - self.low)
         };

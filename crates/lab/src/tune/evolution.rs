@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
+use vibrissa_runtime::math;
 
 /// The first standard deviation of a coordinate, as a share of its range.
 const FIRST_STEP: f64 = 0.2;
@@ -61,13 +62,14 @@ impl Constants {
     fn new(coordinates: usize) -> Self {
         let n = coordinates as f64;
         let samples = Evolution::samples_of(coordinates);
-        let raw = (0..samples / 2).map(|rank| f64::midpoint(samples as f64, 1.0).ln() - (rank as f64 + 1.0).ln());
+        let raw =
+            (0..samples / 2).map(|rank| math::ln(f64::midpoint(samples as f64, 1.0)) - math::ln(rank as f64 + 1.0));
         let raw: Vec<f64> = raw.collect();
         let sum: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|weight| weight / sum).collect();
         let effective = 1.0 / weights.iter().map(|weight| weight * weight).sum::<f64>();
         let step_path_rate = (effective + 2.0) / (n + effective + 5.0);
-        let rank_one = 2.0 / ((n + 1.3).powi(2) + effective);
+        let rank_one = 2.0 / (math::square(n + 1.3) + effective);
         Self {
             samples,
             weights,
@@ -77,7 +79,7 @@ impl Constants {
             covariance_path_rate: (4.0 + effective / n) / (n + 4.0 + 2.0 * effective / n),
             rank_one,
             rank_many: (1.0 - rank_one)
-                .min(2.0 * (effective - 2.0 + 1.0 / effective) / ((n + 2.0).powi(2) + effective)),
+                .min(2.0 * (effective - 2.0 + 1.0 / effective) / (math::square(n + 2.0) + effective)),
             expected_length: n.sqrt() * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n)),
         }
     }
@@ -107,7 +109,7 @@ impl Evolution {
     #[must_use]
     pub fn samples_of(coordinates: usize) -> usize {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
-        let more = (3.0 * (coordinates.max(1) as f64).ln()) as usize;
+        let more = (3.0 * math::ln(coordinates.max(1) as f64)) as usize;
         4 + more
     }
 
@@ -151,7 +153,7 @@ impl Evolution {
         let kept = 1.0 - step_path_rate;
         self.step_path = kept * &self.step_path + (step_path_rate * (1.0 + kept) * effective).sqrt() * whitened;
         let length = self.step_path.norm();
-        let warm = (1.0 - kept.powi(2 * self.generation)).sqrt();
+        let warm = (1.0 - math::powi(kept, 2 * self.generation)).sqrt();
         // A long path means that the step is too small. Until it has grown, the covariance does not follow the path.
         let follows = length / warm < (1.4 + 2.0 / (n as f64 + 1.0)) * self.constants.expected_length;
         let kept = 1.0 - covariance_path_rate;
@@ -163,7 +165,7 @@ impl Evolution {
         let lost = if follows { 0.0 } else { covariance_path_rate * (1.0 + kept) };
         let rest = 1.0 - rank_one - rank_many + rank_one * lost;
         self.covariance = rest * &self.covariance + rank_one * path + rank_many * spread;
-        self.step *= (step_path_rate / damping * (length / self.constants.expected_length - 1.0)).exp();
+        self.step *= math::exp(step_path_rate / damping * (length / self.constants.expected_length - 1.0));
         let eigen = self.covariance.clone().symmetric_eigen();
         self.axes = eigen.eigenvectors;
         self.deviations = eigen.eigenvalues.map(|value| value.max(0.0).sqrt().max(LEAST_DEVIATION));
@@ -192,7 +194,7 @@ mod tests {
     }
 
     fn distance(a: &[f64], b: &[f64]) -> f64 {
-        a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+        a.iter().zip(b).map(|(a, b)| math::square(a - b)).sum::<f64>().sqrt()
     }
 
     proptest! {
@@ -205,8 +207,8 @@ mod tests {
             // Curvatures from 1 to 1000, along oblique directions.
             let cost = |x: &[f64]| {
                 let d: Vec<f64> = x.iter().zip(&goal).map(|(x, goal)| x - goal).collect();
-                (d[0] + d[1]).powi(2) + 10.0 * (d[0] - d[1]).powi(2) + 100.0 * (d[2] + d[3]).powi(2)
-                    + 1000.0 * (d[2] - d[3]).powi(2)
+                math::square(d[0] + d[1]) + 10.0 * math::square(d[0] - d[1]) + 100.0 * math::square(d[2] + d[3])
+                    + 1000.0 * math::square(d[2] - d[3])
             };
             prop_assert!(distance(&found(&start, seed, 200, cost), &goal) < 1e-4);
         }
@@ -223,7 +225,7 @@ mod tests {
                 prop_assert!(points.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
                 let costs: Vec<f64> = points.iter().map(|point| cost(point)).collect();
                 evolution.tell(&costs);
-                other.tell(&costs.iter().map(|cost| cost.exp() - 7.0).collect::<Vec<_>>());
+                other.tell(&costs.iter().map(|cost| math::exp(*cost) - 7.0).collect::<Vec<_>>());
             }
         }
     }
@@ -233,7 +235,7 @@ mod tests {
         // Rosenbrock's function, whose minimum is at (1, 1), in a box from -2 to 2.
         let cost = |x: &[f64]| {
             let (x, y) = (4.0 * x[0] - 2.0, 4.0 * x[1] - 2.0);
-            (1.0 - x).powi(2) + 100.0 * (y - x * x).powi(2)
+            math::square(1.0 - x) + 100.0 * math::square(y - x * x)
         };
         for seed in 0..5 {
             assert!(distance(&found(&[0.2, 0.8], seed, 200, cost), &[0.75, 0.75]) < 1e-3);

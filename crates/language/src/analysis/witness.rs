@@ -3,6 +3,7 @@
 use crate::builtins::{Member, MemberSource, members};
 use crate::types::Type;
 use vibrissa_runtime::machine::{Program, Senses as _, compute};
+use vibrissa_runtime::math;
 use vibrissa_runtime::units::{Dimension, format_si, parse_quantity};
 
 use super::model::Model;
@@ -85,7 +86,7 @@ fn round(value: f64, dimension: Dimension, digits: i32) -> Vec<f64> {
         return vec![0.0];
     }
     #[expect(clippy::cast_possible_truncation, reason = "the magnitude of a finite number is small")]
-    let step = 10.0_f64.powi(number.abs().log10().floor() as i32 + 1 - digits);
+    let step = math::powi(10.0, math::log10(number.abs()).floor() as i32 + 1 - digits);
     let steps = (number / step).round();
     [steps, steps - 1.0, steps + 1.0]
         .into_iter()

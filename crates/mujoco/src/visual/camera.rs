@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::{BoundingBox, Point2};
 use vibrissa_world::world::raised;
 
@@ -31,7 +32,7 @@ impl Camera {
         let (ahead, right, up) = frame();
         let middle = area.min + 0.5 * (area.max - area.min);
         let looks_at = Point3::new(middle.x, middle.y, 0.0);
-        let vertical = FILLED * (0.5 * FIELD_OF_VIEW).tan();
+        let vertical = FILLED * math::tan(0.5 * FIELD_OF_VIEW);
         let horizontal = vertical * aspect;
         let corners = [area.min, area.max, Point2::new(area.min.x, area.max.y), Point2::new(area.max.x, area.min.y)];
         let corners = corners.into_iter().flat_map(|corner| [-top, top].map(|height| raised(corner, height)));
@@ -58,7 +59,7 @@ impl Camera {
 
 /// The directions of view, to the right and upwards in the picture (unit vectors, world frame).
 fn frame() -> (Vector3<f64>, Vector3<f64>, Vector3<f64>) {
-    let (sin, cos) = ELEVATION.sin_cos();
+    let (sin, cos) = math::sin_cos(ELEVATION);
     (Vector3::new(0.0, cos, sin), Vector3::x(), Vector3::new(0.0, -sin, cos))
 }
 

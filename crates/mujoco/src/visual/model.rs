@@ -7,6 +7,7 @@ use mujoco_rs::prelude::{MjData, MjModel};
 use crate::mjcf::{half_height, named_parts, write_assets, write_part};
 use crate::prune::Scope;
 use crate::world::MujocoError;
+use vibrissa_runtime::math;
 use vibrissa_world::geometry::Pose;
 use vibrissa_world::physics::Physics;
 use vibrissa_world::scene::Scene;
@@ -50,7 +51,7 @@ impl VisualModel {
 
     /// Moves the platform to a pose (world frame).
     pub(super) fn place(&mut self, body: &Pose) {
-        let (sin, cos) = (0.5 * body.heading).sin_cos();
+        let (sin, cos) = math::sin_cos(0.5 * body.heading);
         if let Some(position) = self.data.mocap_pos_mut().first_mut() {
             *position = [body.position.x, body.position.y, 0.0];
         }

@@ -97,6 +97,8 @@ impl PoseHistory {
 
 #[cfg(test)]
 mod tests {
+    use vibrissa_runtime::math;
+
     use super::*;
 
     fn moving(time_ns: u64) -> StampedPose {
@@ -134,7 +136,7 @@ mod tests {
         for rate in [0.5, -0.5, 3.0, -3.0] {
             // Within (-180°, 180°], within [0°, 360°), and from one to the other.
             let half = |angle: f64| std::f64::consts::PI - (std::f64::consts::PI - angle).rem_euclid(TAU);
-            let either = |angle: f64| if angle.sin() > 0.3 { half(angle) } else { angle.rem_euclid(TAU) };
+            let either = |angle: f64| if math::sin(angle) > 0.3 { half(angle) } else { angle.rem_euclid(TAU) };
             for wrap in [&half as &dyn Fn(f64) -> f64, &|angle| angle.rem_euclid(TAU), &either, &|angle| angle] {
                 let mut history = PoseHistory::new(60_000_000);
                 let begin = wrap(heading(0.0, rate)) - heading(0.0, rate);

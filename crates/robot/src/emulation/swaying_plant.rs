@@ -1,6 +1,7 @@
 //! A plant without objects.
 
 use vibrissa_runtime::geometry::{Point2, Pose};
+use vibrissa_runtime::math;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
 
 use super::plant::{Plant, PlantFault, PlantState};
@@ -43,7 +44,7 @@ impl Plant for SwayingPlant {
         self.state.pose.heading += command.yaw_rate * self.period;
         let amplitude = if self.travelled > REST { MOMENT } else { 0.0 };
         for (moment, phase) in self.state.base_moments.iter_mut().zip(0_u8..) {
-            *moment = amplitude * (std::f64::consts::TAU * FREQUENCY * self.time + f64::from(phase)).sin();
+            *moment = amplitude * math::sin(std::f64::consts::TAU * FREQUENCY * self.time + f64::from(phase));
         }
         Ok(self.state)
     }

@@ -89,6 +89,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use vibrissa_runtime::geometry::Point2;
+    use vibrissa_runtime::math;
     use vibrissa_runtime::rig::Rig;
 
     const MS: u64 = 1_000_000;
@@ -169,7 +170,7 @@ mod tests {
         ) {
             let (mut place, mut heading) = (Point2::origin(), 0.0);
             let poses = steps.iter().map(|&(direction, length, turn, noise)| {
-                place += Vector2::new(direction.cos(), direction.sin()) * length;
+                place += Vector2::new(math::cos(direction), math::sin(direction)) * length;
                 heading += turn;
                 pose(place.x + noise, place.y, heading)
             });

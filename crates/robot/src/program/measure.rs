@@ -5,6 +5,7 @@ use std::time::Instant;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::{Point2, Pose};
 use vibrissa_runtime::machine::{Op, compute};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Reading, Sample};
 
@@ -53,7 +54,7 @@ fn longest_tick(mut control: Control, rig: &Rig, rounds: u32) -> f64 {
                 time += sample_period;
                 let mut whiskers = [Reading::default(); MAX_WHISKERS];
                 for reading in &mut whiskers {
-                    reading.base_angle = 150e-6 * (3.0 * time).sin();
+                    reading.base_angle = 150e-6 * math::sin(3.0 * time);
                 }
                 Sample { time, body: Pose { position: Point2::new(0.05 * time, 0.0), heading: 0.1 * time }, whiskers }
             })

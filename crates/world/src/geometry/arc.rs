@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use vibrissa_runtime::math;
+
 use super::{BoundingBox, Point2, Pose, Vector2, perpendicular, unit};
 
 /// The angle (rad, approximately) next to a spoke within which rounding may decide on which side of it a point is.
@@ -136,7 +138,7 @@ impl Arc {
     fn angle_travelled(&self, outward: Vector2) -> f64 {
         let start = unit(self.start_angle);
         // The angle between two vectors is accurate near the start. A difference of two angles is not.
-        let from_start = start.perp(&outward).atan2(start.dot(&outward)) * self.sweep.signum();
+        let from_start = math::atan2(start.perp(&outward), start.dot(&outward)) * self.sweep.signum();
         if from_start < 0.0 { (from_start + TAU).min(TAU.next_down()) } else { from_start }
     }
 }

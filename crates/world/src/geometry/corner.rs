@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use vibrissa_runtime::math;
+
 use super::{Contour, Piece, Point2, Vector2};
 
 /// Two tangents are a cusp if they are opposite within this angle (rad).
@@ -59,7 +61,7 @@ impl Contour {
 /// the left of `before`, and the turn is π, if κ₁ + κ₂ is negative.
 pub(super) fn turn(before: &Piece, after: &Piece) -> Option<f64> {
     let (incoming, outgoing) = (before.tangent_at(before.length()), after.tangent_at(0.0));
-    let turn = incoming.perp(&outgoing).atan2(incoming.dot(&outgoing));
+    let turn = math::atan2(incoming.perp(&outgoing), incoming.dot(&outgoing));
     if PI - turn.abs() > CUSP_TOLERANCE {
         return Some(turn);
     }

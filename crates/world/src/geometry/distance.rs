@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use vibrissa_runtime::math;
 
 use super::{
     Contour, Piece, Point2, TreePoint, Vector2, corner, min_distance, min_distance_down_to, plane_point, tree_point,
@@ -195,6 +196,6 @@ impl RTreeObject for Leaf {
 
 impl PointDistance for Leaf {
     fn distance_2(&self, point: &TreePoint) -> f64 {
-        self.distance(plane_point(*point)).powi(2)
+        math::square(self.distance(plane_point(*point)))
     }
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use vibrissa_runtime::math;
+
 use super::fit::fit;
 use super::{Piece, Point2, Vector2, perpendicular};
 
@@ -45,11 +47,11 @@ impl EllipticArc {
         let turned = perpendicular(u) * u.perp(&v).signum();
         if (turned - v).norm() <= ROUND * radius {
             let hand = u.perp(&v).signum();
-            let start_angle = u.y.atan2(u.x) + hand * self.start_angle;
+            let start_angle = math::atan2(u.y, u.x) + hand * self.start_angle;
             return Some(vec![Piece::arc(self.centre, radius, start_angle, hand * self.sweep)]);
         }
         let place = |angle: f64| {
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = math::sin_cos(angle);
             (self.centre + u * cos + v * sin, (v * cos - u * sin) * self.sweep.signum())
         };
         let parts = (1..=16_u32).find(|&parts| f64::from(parts) >= PARTS * self.sweep.abs() / TAU)?;
@@ -76,7 +78,7 @@ mod tests {
             let arc = EllipticArc { centre: Point2::new(0.1, -0.2), radii, start_angle: from, sweep };
             let contour = Contour::open(arc.pieces().unwrap()).unwrap();
             for k in 0..=1000 {
-                let (sin, cos) = (from + sweep * f64::from(k) / 1000.0).sin_cos();
+                let (sin, cos) = math::sin_cos(from + sweep * f64::from(k) / 1000.0);
                 let place = arc.centre + radii[0] * cos + radii[1] * sin;
                 prop_assert!(contour.nearest(place).distance < 1.1e-6);
             }
@@ -89,7 +91,7 @@ mod tests {
         let radii = [Vector2::new(0.0, 0.3), Vector2::new(0.3, 0.0)];
         let arc = EllipticArc { centre: Point2::origin(), radii, start_angle: 0.2, sweep: 1.0 };
         let pieces = arc.pieces().unwrap();
-        let place = |t: f64| Point2::new(0.3 * t.sin(), 0.3 * t.cos());
+        let place = |t: f64| Point2::new(0.3 * math::sin(t), 0.3 * math::cos(t));
         assert_eq!(pieces.len(), 1);
         assert!((pieces[0].start() - place(0.2)).norm() + (pieces[0].end() - place(1.2)).norm() < 1e-15);
     }

@@ -1,5 +1,7 @@
 //! Approximation of smooth curves by arcs.
 
+use vibrissa_runtime::math;
+
 use super::{Arc, Piece, Point2, Vector2, perpendicular};
 
 /// The largest distance (m) of an arc from its curve.
@@ -67,7 +69,7 @@ pub(super) fn most_arcs(derivatives: impl Fn(f64) -> [Vector2; 3], from: f64, to
         let speed = first.norm();
         let turning = 3.0 * first.perp(&second) * first.dot(&second) / (speed * speed);
         // The derivative of the curvature with respect to the parameter, times the squared speed.
-        ((first.perp(&third) - turning).abs() / (speed * 324.0 * TOLERANCE)).cbrt()
+        math::cbrt((first.perp(&third) - turning).abs() / (speed * 324.0 * TOLERANCE))
     };
     let pairs = 2.0 * step.abs() * (0..places).map(share).sum::<f64>();
     #[expect(
@@ -94,14 +96,14 @@ pub(super) fn biarc((start, out): CurvePoint, (end, into): CurvePoint) -> [Piece
 /// The arc from `start` in direction `out` to `end`.
 fn arc(start: Point2, out: Vector2, end: Point2) -> Piece {
     let chord = end - start;
-    let half_sweep = out.perp(&chord).atan2(out.dot(&chord));
+    let half_sweep = math::atan2(out.perp(&chord), out.dot(&chord));
     let to_centre = chord.norm_squared() / (2.0 * perpendicular(out).dot(&chord));
     if to_centre.is_nan() || to_centre.abs() > MAX_RADIUS {
         return Piece::segment(start, end);
     }
     let centre = start + to_centre * perpendicular(out);
     let outward = start - centre;
-    let start_angle = outward.y.atan2(outward.x);
+    let start_angle = math::atan2(outward.y, outward.x);
     Piece::Arc(Arc { centre, radius: to_centre.abs(), start_angle, sweep: 2.0 * half_sweep })
 }
 
@@ -118,7 +120,7 @@ mod tests {
 
     fn wave(amplitude: f64, wave_number: f64) -> impl Fn(f64) -> CurvePoint {
         move |x| {
-            let (sin, cos) = (wave_number * x).sin_cos();
+            let (sin, cos) = math::sin_cos(wave_number * x);
             (Point2::new(x, amplitude * sin), Vector2::new(1.0, amplitude * wave_number * cos))
         }
     }
@@ -138,15 +140,15 @@ mod tests {
 
     /// The number of arcs of some waves, if they can be fitted, and the bound of it.
     fn counts(amplitude: f64, exponent: f64, waves: f64) -> (Option<usize>, usize) {
-        let wave_number = 10_f64.powf(exponent);
+        let wave_number = math::powf(10.0, exponent);
         let to = waves * TAU / wave_number;
         let derivatives = |x: f64| {
-            let (sin, cos) = (wave_number * x).sin_cos();
+            let (sin, cos) = math::sin_cos(wave_number * x);
             let slope = amplitude * wave_number;
             [
                 Vector2::new(1.0, slope * cos),
                 Vector2::new(0.0, -slope * wave_number * sin),
-                Vector2::new(0.0, -slope * wave_number.powi(2) * cos),
+                Vector2::new(0.0, -slope * math::square(wave_number) * cos),
             ]
         };
         let arcs = fit(wave(amplitude, wave_number), 0.0, to, MIN_PARTS).map(|arcs| arcs.len());

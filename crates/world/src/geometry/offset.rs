@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use cavalier_contours::polyline::{
     PlineOffsetOptions, PlineSource, PlineSourceMut, PlineVertex, Polyline, TouchingLoopBehavior,
 };
+use vibrissa_runtime::math;
 
 use super::{Arc, Contour, JOIN_TOLERANCE, MIN_PIECE_LENGTH, Piece, Point2, Vector2, perpendicular, rotate};
 
@@ -146,7 +147,7 @@ pub(super) fn to_polyline(contour: &Contour, origin: Point2) -> Polyline {
                 // The library's arcs are at most half circles.
                 let parts = (arc.sweep.abs() / 3.0).ceil();
                 for part in (0..3_u8).map(f64::from).take_while(|&part| part < parts) {
-                    add(arc.point_at(arc.length() * part / parts), (0.25 * arc.sweep / parts).tan());
+                    add(arc.point_at(arc.length() * part / parts), math::tan(0.25 * arc.sweep / parts));
                 }
             }
         }
@@ -216,7 +217,7 @@ fn to_piece(from: PlineVertex, to: PlineVertex, origin: Point2) -> Piece {
     let to_centre = perpendicular(chord) * ((1.0 - from.bulge * from.bulge) / (4.0 * from.bulge));
     let centre = nalgebra::center(&start, &end) + to_centre;
     let outward = start - centre;
-    Piece::arc(centre, outward.norm(), outward.y.atan2(outward.x), 4.0 * from.bulge.atan())
+    Piece::arc(centre, outward.norm(), math::atan2(outward.y, outward.x), 4.0 * math::atan(from.bulge))
 }
 
 /// True if `next` continues on the circle of `last`.

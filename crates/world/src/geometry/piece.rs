@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use vibrissa_runtime::math;
+
 use super::{Arc, BoundingBox, Point2, Pose, Segment, Vector2, perpendicular};
 
 /// One piece of a contour, with a direction from its start to its end.
@@ -32,9 +34,9 @@ impl Piece {
     pub fn arc_between(start: Point2, end: Point2, sweep: f64) -> Self {
         let chord = end - start;
         // The centre is to the left of the middle of the chord for a left turn.
-        let centre = nalgebra::center(&start, &end) + perpendicular(chord) * (0.5 / (0.5 * sweep).tan());
+        let centre = nalgebra::center(&start, &end) + perpendicular(chord) * (0.5 / math::tan(0.5 * sweep));
         let outward = start - centre;
-        Self::arc(centre, outward.norm(), outward.y.atan2(outward.x), sweep)
+        Self::arc(centre, outward.norm(), math::atan2(outward.y, outward.x), sweep)
     }
 
     /// One or two pieces from the same start to another end (m), near its own: a segment, or arcs with the same sweep.
@@ -167,7 +169,7 @@ impl Piece {
 /// x − sin x, accurate also for small x.
 fn minus_sine(x: f64) -> f64 {
     if x.abs() > 0.5 {
-        return x - x.sin();
+        return x - math::sin(x);
     }
     // The series of x − sin x in Horner's form. The first omitted term is below 1e-17 of the sum.
     let square = x * x;

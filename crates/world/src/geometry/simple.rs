@@ -131,6 +131,8 @@ mod tests {
 
     use std::f64::consts::{FRAC_PI_2, PI};
 
+    use vibrissa_runtime::math;
+
     use super::*;
     use crate::geometry::Contour;
 
@@ -194,8 +196,8 @@ mod tests {
         let rings = vec![
             Piece::arc(Point2::new(-0.5, 0.0), 1.0, -PI, 1.9 * PI),
             Piece::segment(
-                Point2::new(-0.5 + (0.9 * PI).cos(), (0.9 * PI).sin()),
-                Point2::new(-0.5 + 2.0 * (0.9 * PI).cos(), 2.0 * (0.9 * PI).sin()),
+                Point2::new(-0.5 + math::cos(0.9 * PI), math::sin(0.9 * PI)),
+                Point2::new(-0.5 + 2.0 * math::cos(0.9 * PI), 2.0 * math::sin(0.9 * PI)),
             ),
         ];
         assert_eq!(met(Contour::open(rings)), None);

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_4, SQRT_2, TAU};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardUniform};
+use vibrissa_runtime::math;
 
 use super::fit::biarc;
 use super::{Contour, ContourError, Piece, perpendicular};
@@ -182,7 +183,7 @@ impl Height {
     fn at(&self, s: f64, [before, behind]: [f64; 2]) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
         for sine in &self.sines {
-            let (sin, cos) = (sine.wave_number * s + sine.phase).sin_cos();
+            let (sin, cos) = math::sin_cos(sine.wave_number * s + sine.phase);
             value += sine.amplitude * sin;
             slope += sine.amplitude * sine.wave_number * cos;
         }

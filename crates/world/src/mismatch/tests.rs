@@ -3,6 +3,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::physics::Physics;
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 
 fn with(property: Property, range: impl Into<Range>) -> Mismatch {
@@ -38,7 +39,7 @@ fn a_value_is_symmetric_for_both_sides() {
         assert!((true_whisker.direction_body.abs() - assumed.direction_body.abs() - 0.1).abs() < 1e-12);
         assert!((true_whisker.base_body.x - assumed.base_body.x - 1e-3).abs() < 1e-12);
         assert!((true_whisker.base_body.y.abs() - assumed.base_body.y.abs() - 1e-3).abs() < 1e-12);
-        let aside = true_whisker.shaft.curvature * true_whisker.shaft.length.powi(2) / 2.0;
+        let aside = true_whisker.shaft.curvature * math::square(true_whisker.shaft.length) / 2.0;
         assert!((aside - assumed.side() * 1e-3).abs() < 1e-12);
     }
 }

@@ -139,6 +139,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
     use proptest::prelude::*;
+    use vibrissa_runtime::math;
 
     use super::*;
     use crate::geometry::{Contour, regular_polygon};
@@ -184,10 +185,10 @@ mod tests {
         ) {
             // The corners are 0.7 µm apart, so that each has two others within the tolerance.
             let turn = std::f64::consts::TAU / 24.0;
-            let radius = 0.35e-6 / (0.5 * turn).sin();
+            let radius = 0.35e-6 / math::sin(0.5 * turn);
             let angles = (0_u8..24).map(|k| turn * f64::from(k));
             let corners: Vec<Point2> =
-                angles.map(|angle| Point2::new(radius * angle.cos(), radius * angle.sin())).collect();
+                angles.map(|angle| Point2::new(radius * math::cos(angle), radius * math::sin(angle))).collect();
             let loose: Vec<LoosePiece> = order
                 .into_iter()
                 .zip(turned)

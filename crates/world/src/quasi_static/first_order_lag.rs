@@ -1,5 +1,7 @@
 //! The response of a damped spring.
 
+use vibrissa_runtime::math;
+
 /// An angle that follows an input angle with a first-order lag, as a damped spring follows a moment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FirstOrderLag {
@@ -27,7 +29,7 @@ impl FirstOrderLag {
         // In the steady state of a ramp, the output is delayed by the time constant. The transient decays
         // exponentially.
         let delay = (input - self.input) / period * self.time_constant;
-        let decay = if self.time_constant > 0.0 { (-period / self.time_constant).exp() } else { 0.0 };
+        let decay = if self.time_constant > 0.0 { math::exp(-period / self.time_constant) } else { 0.0 };
         let value = input - delay + (self.value - self.input + delay) * decay;
         // Rounding would keep subnormal numbers forever, and they are a hundred times slower to process.
         self.value = if value.abs() < SMALLEST_ANGLE { 0.0 } else { value };

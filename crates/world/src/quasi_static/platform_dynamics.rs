@@ -2,6 +2,7 @@
 
 use crate::geometry::{Pose, Vector2, perpendicular};
 use crate::physics::Physics;
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Platform;
 use vibrissa_runtime::signal::Command;
 
@@ -75,7 +76,7 @@ impl PlatformDynamics {
             linear: command.velocity_world + force * (servo / mass),
             angular: command.yaw_rate + moment * (yaw_servo / inertia),
         };
-        let remaining = [servo, yaw_servo].map(|servo| (-period / servo).exp());
+        let remaining = [servo, yaw_servo].map(|servo| math::exp(-period / servo));
         // The time integral of the decaying difference to the target velocity.
         let transient = [servo * (1.0 - remaining[0]), yaw_servo * (1.0 - remaining[1])];
         let mut motion = self.velocity.blend(&target, transient, transient.map(|transient| period - transient));

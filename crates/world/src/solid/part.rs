@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use vibrissa_runtime::math;
+
 use crate::geometry::{Contour, Piece, Point2, Vector2, perpendicular};
 
 use super::solid::SolidError;
@@ -109,7 +111,7 @@ pub(super) fn chords(piece: &Piece, sagitta: f64) -> impl Iterator<Item = Point2
 
 fn chord_count(piece: &Piece, sagitta: f64) -> usize {
     let Piece::Arc(arc) = piece else { return 1 };
-    let widest = (2.0 * (1.0 - sagitta / arc.radius).clamp(-1.0, 1.0).acos()).max(TAU / CHORDS_PER_TURN);
+    let widest = (2.0 * math::acos((1.0 - sagitta / arc.radius).clamp(-1.0, 1.0))).max(TAU / CHORDS_PER_TURN);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
     let count = (arc.sweep.abs() / widest).ceil().max(1.0) as usize;
     count
@@ -132,7 +134,7 @@ mod tests {
     proptest! {
         #[test]
         fn chords_are_as_near_to_their_arcs_as_promised_and_bounded_in_number(exponent in -3.0..1.7_f64) {
-            let radius = 10_f64.powf(exponent);
+            let radius = math::powf(10.0, exponent);
             let side = 2.0 * radius;
             let contour = rounded_rectangle(Point2::origin(), side, 1.5 * side, radius, 0.0).unwrap();
             let outline = prism(&contour);

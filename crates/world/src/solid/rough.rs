@@ -1,5 +1,7 @@
 //! The convex parts of a rough solid.
 
+use vibrissa_runtime::math;
+
 use crate::geometry::{Contour, Piece, Point2, Vector2, perpendicular};
 
 use super::part::{Part, chords};
@@ -45,7 +47,7 @@ pub(super) fn layer(outline: &Contour, amplitude: f64) -> Vec<Part> {
         part.push(to);
         let back = [(to, last), (from, first)].map(|(end, along)| {
             let inwards = perpendicular(along.normalize());
-            let depth = |count| THICKNESS * amplitude * SHORTENING.powi(count);
+            let depth = |count| THICKNESS * amplitude * math::powi(SHORTENING, count);
             let fits = |depth: &f64| outline.contains(end + 2.0 * *depth * inwards);
             end + (0..SHORTENINGS).map(depth).find(fits).unwrap_or(depth(SHORTENINGS)) * inwards
         });

@@ -3,6 +3,7 @@
 use std::iter;
 
 use nalgebra::center;
+use vibrissa_runtime::math;
 
 use crate::geometry::{Contour, Piece, Point2, Side, Strip, perpendicular};
 
@@ -72,7 +73,7 @@ impl Block {
 fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     let ([.., before, seam], [_, first, ..]) = (block.face.as_slice(), next.face.as_slice()) else { return Vec::new() };
     let (into, out) = (seam - before, first - seam);
-    let turn = round * into.perp(&out).atan2(into.dot(&out));
+    let turn = round * math::atan2(into.perp(&out), into.dot(&out));
     if turn.abs() > LAPPED_TURN {
         return Vec::new();
     }
@@ -82,9 +83,9 @@ fn lap(block: &Block, next: &Block, round: f64) -> Vec<Point2> {
     let share = if next.face.len() > 2 { 0.5 } else { 0.9 };
     let length = LAP.min(share * next.face.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>());
     // At a slight corner of a thin wall, a long lap would leave the wall at the back.
-    let length = length.min(0.5 * thickness / turn.abs().tan());
+    let length = length.min(0.5 * thickness / math::tan(turn.abs()));
     let slope = depth / length;
-    if slope < (-turn).tan() {
+    if slope < math::tan(-turn) {
         // The face is concave, so a straight lap is deep enough.
         return vec![seam + length.min(0.9 * out.norm()) * into.normalize()];
     }

@@ -4,12 +4,14 @@ use std::collections::VecDeque;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rand_distr::{Distribution, Normal, StandardUniform};
+use rand_distr::{Distribution, StandardUniform};
 
-use super::sensors::{Sensors, drawn, normal, whole};
+use super::noise::Noise;
+use super::sensors::{Sensors, whole};
 use super::{Fault, OutOfPlane, Posture, World};
 use crate::geometry::{Point2, Pose, Vector2};
 use crate::mismatch::{Loss, PoseErrors, SensorErrors, TrueArray};
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Rig, Sensing};
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample};
 
@@ -19,7 +21,7 @@ pub struct Disturbed {
     world: Box<dyn World>,
     array: TrueArray,
     sensors: Sensors,
-    noises: Vec<Option<Normal<f64>>>,
+    noises: Vec<Noise>,
     pose: MeasuredPose,
     random: ChaCha8Rng,
     /// Exact samples as far back as the longest latency, oldest first.
@@ -40,7 +42,7 @@ pub struct Disturbed {
 /// The errors of measured poses while they are simulated.
 struct MeasuredPose {
     errors: PoseErrors,
-    noise: (Option<Normal<f64>>, Option<Normal<f64>>),
+    noise: (Noise, Noise),
     wander: [Wander; 3],
 }
 
@@ -49,9 +51,9 @@ struct MeasuredPose {
 struct Wander {
     /// The factor by which the value decays in a sample period.
     decay: f64,
-    innovation: Option<Normal<f64>>,
+    innovation: Noise,
     /// The distribution of the first value.
-    initial: Option<Normal<f64>>,
+    initial: Noise,
     value: Option<f64>,
 }
 
@@ -81,7 +83,7 @@ impl Disturbed {
         let delay = array.command_latency / period;
         Self {
             sensors: Sensors::new(sensing, seed),
-            noises: array.sensors.iter().map(|sensor| normal(sensor.noise)).collect(),
+            noises: array.sensors.iter().map(|sensor| Noise::new(sensor.noise)).collect(),
             pose: MeasuredPose::new(array.pose, period),
             random,
             exact: VecDeque::new(),
@@ -148,11 +150,11 @@ impl Disturbed {
         let time = self.exact.get(index).map_or(0.0, |sample| sample.time) - latency;
         let angle = at(|reading| Some(reading.base_angle));
         let (shear, axial) = (at(|reading| reading.shear), at(|reading| reading.axial));
-        let noise = self.noises.get(whisker).copied().flatten();
+        let noise = self.noises.get(whisker).copied().unwrap_or_default();
         let mut base_angle = angle * (1.0 + gain + cubic * angle * angle)
             + offset
             + drift * time.max(0.0)
-            + drawn(noise, &mut self.random);
+            + noise.draw(&mut self.random);
         if resolution > 0.0 {
             base_angle = (base_angle / resolution).round() * resolution;
         }
@@ -240,7 +242,7 @@ impl MeasuredPose {
         let (position, heading) = errors.wander;
         let wander = |spread| Wander::new(spread, period, errors.wander_time);
         Self {
-            noise: (normal(errors.noise.0), normal(errors.noise.1)),
+            noise: (Noise::new(errors.noise.0), Noise::new(errors.noise.1)),
             wander: [wander(position), wander(position), wander(heading)],
             errors,
         }
@@ -255,7 +257,7 @@ impl MeasuredPose {
             at(|sample| sample.body.heading),
         ];
         let noises = [self.noise.0, self.noise.0, self.noise.1];
-        let [x, y, turn] = std::array::from_fn(|part| self.wander[part].next(random) + drawn(noises[part], random));
+        let [x, y, turn] = std::array::from_fn(|part| self.wander[part].next(random) + noises[part].draw(random));
         Pose { position: Point2::new(pose[0], pose[1]) + Vector2::new(x, y), heading: pose[2] + turn }
     }
 }
@@ -263,14 +265,19 @@ impl MeasuredPose {
 impl Wander {
     /// A wander with this standard deviation and this correlation `time` (s), sampled every `period` (s).
     fn new(spread: f64, period: f64, time: f64) -> Self {
-        let decay = if time > 0.0 { (-period / time).exp() } else { 0.0 };
-        Self { decay, innovation: normal(spread * (1.0 - decay * decay).sqrt()), initial: normal(spread), value: None }
+        let decay = if time > 0.0 { math::exp(-period / time) } else { 0.0 };
+        Self {
+            decay,
+            innovation: Noise::new(spread * (1.0 - decay * decay).sqrt()),
+            initial: Noise::new(spread),
+            value: None,
+        }
     }
 
     fn next(&mut self, random: &mut ChaCha8Rng) -> f64 {
         let value = match self.value {
-            Some(value) => self.decay * value + drawn(self.innovation, random),
-            None => drawn(self.initial, random),
+            Some(value) => self.decay * value + self.innovation.draw(random),
+            None => self.initial.draw(random),
         };
         self.value = Some(value);
         value

@@ -2,6 +2,7 @@
 
 mod disturbed;
 mod fault;
+mod noise;
 mod observed;
 mod out_of_plane;
 mod posture;

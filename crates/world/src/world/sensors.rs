@@ -2,9 +2,10 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rand_distr::{Distribution, Normal};
 
 use vibrissa_runtime::rig::Sensing;
+
+use super::noise::Noise;
 
 /// Smaller angles (rad) are read as 0. The vibration of a free whisker decays to subnormal numbers, which processors
 /// handle a hundred times more slowly. All values computed from readings would be affected.
@@ -13,9 +14,9 @@ const FADED: f64 = 1e-290;
 /// The sensors at the bases of whiskers, with noise and resolution. They are the same in all simulators.
 #[derive(Debug, Clone)]
 pub struct Sensors {
-    noise: Option<Normal<f64>>,
+    noise: Noise,
     resolution: f64,
-    force_noise: Option<Normal<f64>>,
+    force_noise: Noise,
     random: ChaCha8Rng,
 }
 
@@ -24,16 +25,16 @@ impl Sensors {
     #[must_use]
     pub fn new(sensing: &Sensing, seed: u64) -> Self {
         Self {
-            noise: normal(sensing.angle_noise),
+            noise: Noise::new(sensing.angle_noise),
             resolution: sensing.angle_resolution,
-            force_noise: normal(sensing.force_noise),
+            force_noise: Noise::new(sensing.force_noise),
             random: ChaCha8Rng::seed_from_u64(seed),
         }
     }
 
     /// Returns the reading of a base angle (rad).
     pub fn read(&mut self, base_angle: f64) -> f64 {
-        let noisy = base_angle + drawn(self.noise, &mut self.random);
+        let noisy = base_angle + self.noise.draw(&mut self.random);
         if self.resolution > 0.0 {
             (noisy / self.resolution).round() * self.resolution
         } else if noisy.abs() < FADED {
@@ -45,17 +46,8 @@ impl Sensors {
 
     /// Returns the reading of a force (N) at the base.
     pub fn read_force(&mut self, force: f64) -> f64 {
-        force + drawn(self.force_noise, &mut self.random)
+        force + self.force_noise.draw(&mut self.random)
     }
-}
-
-/// Normal noise with this standard deviation; `None` for zero.
-pub(super) fn normal(spread: f64) -> Option<Normal<f64>> {
-    Normal::new(0.0, spread).ok().filter(|_| spread > 0.0)
-}
-
-pub(super) fn drawn(noise: Option<Normal<f64>>, random: &mut ChaCha8Rng) -> f64 {
-    noise.map_or(0.0, |noise| noise.sample(random))
 }
 
 /// Rounds to a positive count. Scenes are validated so that the value is nearly an integer.

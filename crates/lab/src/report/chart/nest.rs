@@ -8,6 +8,7 @@
 use super::layout::{Arrow, Edge, Layout, Node, Position, Route, Size, layout, ranks};
 use super::symbol::Symbol;
 use vibrissa_language::chart::Chart;
+use vibrissa_runtime::math;
 
 /// Margin between a box and its inside (px).
 const MARGIN: f64 = 14.0;
@@ -233,7 +234,7 @@ impl Nest<'_> {
 /// Appends a part of a path to the end of the rest at which it continues.
 fn join(points: &mut Vec<Position>, part: Vec<Position>) {
     let distance = |a: Option<&Position>, b: Option<&Position>| match (a, b) {
-        (Some(a), Some(b)) => (a.0 - b.0).hypot(a.1 - b.1),
+        (Some(a), Some(b)) => math::hypot(a.0 - b.0, a.1 - b.1),
         _ => f64::INFINITY,
     };
     if distance(part.last(), points.first()) < distance(points.last(), part.first()) {
@@ -241,5 +242,5 @@ fn join(points: &mut Vec<Position>, part: Vec<Position>) {
     } else {
         points.extend(part);
     }
-    points.dedup_by(|a, b| (a.0 - b.0).hypot(a.1 - b.1) < 0.01);
+    points.dedup_by(|a, b| math::hypot(a.0 - b.0, a.1 - b.1) < 0.01);
 }

@@ -1,6 +1,7 @@
 //! A sweep as a page.
 
 use maud::{Markup, html};
+use vibrissa_runtime::math;
 use vibrissa_runtime::units::parse_quantity;
 
 use super::document::page;
@@ -335,7 +336,7 @@ fn heat_map(
 ) -> Markup {
     let value = |group: &SweepGroup| {
         let value = (measure.of)(&group.tally)?;
-        Some(if measure.is_logarithmic { value.max(1e-6).log10() } else { value })
+        Some(if measure.is_logarithmic { math::log10(value.max(1e-6)) } else { value })
     };
     // One scale for all heat maps of a measure, so that colours can be compared.
     let all = || groups.iter().filter_map(value);

@@ -21,6 +21,8 @@ pub(in crate::report) fn colour_of(error: f64) -> &'static str {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use vibrissa_runtime::math;
+
     use super::*;
 
     /// Perceived linear RGB with full colour vision, and without the cones for long, medium and short waves. The
@@ -42,16 +44,16 @@ mod tests {
     /// A colour in CIE L*a*b*, whose distances are approximately perceived differences.
     fn lab(colour: &str, vision: [[f64; 3]; 3]) -> [f64; 3] {
         let part = |k: usize| f64::from(u8::from_str_radix(&colour[k..k + 2], 16).unwrap()) / 255.0;
-        let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
+        let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { math::powf((part + 0.055) / 1.055, 2.4) };
         let seen = product(vision, [1, 3, 5].map(|k| linear(part(k)))).map(|part| part.clamp(0.0, 1.0));
         let [x, y, z] = product(XYZ, seen);
         let [x, y, z] =
-            [x / 0.9505, y, z / 1.089].map(|t| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 });
+            [x / 0.9505, y, z / 1.089].map(|t| if t > 0.008_856 { math::cbrt(t) } else { 7.787 * t + 16.0 / 116.0 });
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
     fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-        a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+        a.iter().zip(b).map(|(a, b)| math::square(a - b)).sum::<f64>().sqrt()
     }
 
     #[test]

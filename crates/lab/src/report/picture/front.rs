@@ -2,6 +2,7 @@
 
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Path};
+use vibrissa_runtime::math;
 
 use super::scale::Scale;
 use crate::report::style::{self, Anchor, line, px, text};
@@ -112,7 +113,7 @@ impl Panel {
 
     fn position(&self, point: &FrontPoint) -> Option<(f64, f64)> {
         let (error, ..) = point.errors[self.measure]?;
-        Some((self.x.at(point.cost.log10()), self.y.at(error.log10())))
+        Some((self.x.at(math::log10(point.cost)), self.y.at(math::log10(error))))
     }
 
     /// The step curve of the least error for each cost.
@@ -142,7 +143,7 @@ fn free_position((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
     let around = |radius: f64| {
         (0..12).map(move |k| {
             let angle = f64::from(k) * std::f64::consts::TAU / 12.0 - std::f64::consts::FRAC_PI_4;
-            (x + radius * angle.cos(), y + radius * angle.sin())
+            (x + radius * math::cos(angle), y + radius * math::sin(angle))
         })
     };
     let is_free = |position: &(f64, f64)| {
@@ -157,7 +158,7 @@ fn free_position((x, y): (f64, f64), taken: &[(f64, f64)]) -> (f64, f64) {
 /// The scale of the logarithms of some numbers above 0, with margins. `None` without numbers.
 fn logarithmic(values: impl Iterator<Item = f64>, positions: (f64, f64)) -> Option<Scale> {
     const MARGIN_SHARE: f64 = 0.08;
-    let logarithms = values.map(f64::log10).filter(|value| value.is_finite());
+    let logarithms = values.map(math::log10).filter(|value| value.is_finite());
     let (low, high) =
         logarithms.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
     let margin = MARGIN_SHARE * (high - low).max(0.1);
@@ -169,12 +170,12 @@ fn round_values(scale: &Scale) -> Vec<(f64, String)> {
     let (low, high) = scale.values;
     #[expect(clippy::cast_possible_truncation, reason = "the exponents of measured values")]
     let powers = low.floor() as i32..=high.floor() as i32;
-    let values = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit: f64| (digit * 10_f64.powi(power), power)));
-    let on_scale = values.filter(|(value, _)| (low..=high).contains(&value.log10()));
+    let values = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit: f64| (digit * math::powi(10.0, power), power)));
+    let on_scale = values.filter(|(value, _)| (low..=high).contains(&math::log10(*value)));
     on_scale
         .map(|(value, power)| {
             let decimals = usize::try_from(-power).unwrap_or(0);
-            (scale.at(value.log10()), format!("{value:.decimals$}"))
+            (scale.at(math::log10(value)), format!("{value:.decimals$}"))
         })
         .collect()
 }

@@ -3,6 +3,7 @@
 use std::iter;
 
 use svg::node::element::Rectangle;
+use vibrissa_runtime::math;
 
 use super::scale::Scale;
 use crate::report::style::{self, Anchor, line, px, text};
@@ -23,8 +24,9 @@ pub(in crate::report) fn histogram(
     values: &[f64],
     colour: impl Fn(f64) -> &'static str,
 ) -> Option<String> {
-    let powers =
-        || values.iter().filter(|value| **value > 0.0).map(|value| value.log10()).filter(|power| power.is_finite());
+    let powers = || {
+        values.iter().filter(|value| **value > 0.0).map(|value| math::log10(*value)).filter(|power| power.is_finite())
+    };
     let greatest = powers().max_by(f64::total_cmp)?;
     let least = powers().min_by(f64::total_cmp)?;
     let high = (greatest + 0.5 / BINS).ceil();
@@ -34,7 +36,7 @@ pub(in crate::report) fn histogram(
     let mut bins = vec![0_usize; count];
     for value in values.iter().filter(|value| value.is_finite()) {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
-        let bin = ((value.max(0.0).log10() - low) * BINS).max(0.0) as usize;
+        let bin = ((math::log10(value.max(0.0)) - low) * BINS).max(0.0) as usize;
         bins[bin.min(count - 1)] += 1;
     }
     let most = bins.iter().copied().max().unwrap_or(1).max(1);
@@ -58,7 +60,8 @@ pub(in crate::report) fn histogram(
         let [from, to] = [index, index + 1].map(|edge| low + edge as f64 / BINS);
         let height = bottom - y.at(bin as f64);
         let bar = Rectangle::new().set("x", px(x.at(from))).set("y", px(bottom - height)).set("height", px(height));
-        document = document.add(bar.set("width", px(x.at(to) - x.at(from) - 1.0)).set("fill", colour(10_f64.powf(to))));
+        document =
+            document.add(bar.set("width", px(x.at(to) - x.at(from) - 1.0)).set("fill", colour(math::powf(10.0, to))));
     }
     document = document.add(line((left, bottom), (right, bottom), style::GREY, 1.0));
     for power in iter::successors(Some(low), |power| Some(power + 1.0)).take_while(|power| *power <= high) {
@@ -69,7 +72,7 @@ pub(in crate::report) fn histogram(
             Anchor::Middle,
             12.0,
             style::GREY,
-            &10_f64.powf(power).to_string(),
+            &math::powf(10.0, power).to_string(),
         ));
     }
     let total = values.len();

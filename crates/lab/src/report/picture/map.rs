@@ -16,6 +16,7 @@ use crate::report::style::{self, Anchor, line, px, text};
 use crate::run::{RunMap, TickRecord, Trace};
 use crate::score::{Tip, mark_positions, midpoints};
 use vibrissa_runtime::machine::Mark;
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_world::geometry::{BoundingBox, Contour, Piece, Point2, Pose, unit};
 use vibrissa_world::scene::Scene;
@@ -218,7 +219,7 @@ impl Map {
         let mut kept: Vec<(f64, f64)> = Vec::new();
         for position in path(trace).map(|point| self.position(point)) {
             // Distances below a pixel are not visible.
-            if kept.last().is_none_or(|last| (position.0 - last.0).hypot(position.1 - last.1) >= 1.0) {
+            if kept.last().is_none_or(|last| math::hypot(position.0 - last.0, position.1 - last.1) >= 1.0) {
                 kept.push(position);
             }
         }

@@ -1,5 +1,7 @@
 //! Linear scales with round ticks.
 
+use vibrissa_runtime::math;
+
 /// A linear scale from values to px.
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
@@ -32,14 +34,14 @@ impl Scale {
 
 /// The least of 1, 2 and 5 times a power of ten that is at least `least`.
 pub(super) fn round_step(least: f64) -> f64 {
-    let power = 10_f64.powf(least.log10().floor());
+    let power = math::powf(10.0, math::log10(least).floor());
     [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|&step| step >= 0.999 * least).unwrap_or(10.0 * power)
 }
 
 /// The text of a multiple of `step`, with the decimals of `step`.
 fn label(value: f64, step: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
-    let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
+    let decimals = (-math::log10(step).floor()).clamp(0.0, 12.0) as usize;
     let size = format!("{:.decimals$}", value.abs());
     if value < -0.5 * step { format!("\u{2212}{size}") } else { size }
 }

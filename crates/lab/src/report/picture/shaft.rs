@@ -77,6 +77,7 @@ fn bend_to(whisker: &Whisker, base_angle: f64, contact_base: Option<Vector2<f64>
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
+    use vibrissa_runtime::math;
     use vibrissa_runtime::mechanics::ShaftChain;
     use vibrissa_runtime::rig::Rig;
 
@@ -90,7 +91,7 @@ mod tests {
         let found = (1..=steps).try_fold(near, |near, step| {
             let angle = bend.base_angle * f64::from(step) / f64::from(steps);
             let guess = if step == 1 {
-                let force = angle * whisker.hinge.stiffness / (shaft.length * bend.force_direction.sin());
+                let force = angle * whisker.hinge.stiffness / (shaft.length * math::sin(bend.force_direction));
                 vibrissa_runtime::mechanics::Equilibrium { force, ..near }
             } else {
                 near

@@ -13,6 +13,7 @@ use crate::report::style::{self, Anchor, line, px, text, width_of};
 use crate::run::{PlotRecord, Trace};
 use crate::score::{ErrorFigures, Tip};
 use vibrissa_runtime::machine::OutputKind;
+use vibrissa_runtime::math;
 use vibrissa_runtime::units::{Dimension, format_si, parse_unit};
 
 /// Height of a strip's heading (px).
@@ -95,7 +96,7 @@ impl<'a> Timeline<'a> {
         let (values, ticks) = decades(tips);
         let scale = self.strip(values, ticks);
         // Errors below the scale are drawn at its lower end.
-        let position = |error: f64| scale.at((error * 1e3).log10().max(scale.values.0));
+        let position = |error: f64| scale.at(math::log10(error * 1e3).max(scale.values.0));
         let Some(error) = error.filter(|error| error.mean.is_finite()) else { return };
         let (left, right) = self.time.positions;
         let mean = position(error.mean);
@@ -226,13 +227,13 @@ fn readable_unit(size_si: f64, dimension: Dimension) -> (String, f64) {
 
 /// The powers of ten (mm) around the errors of `tips`, and a tick at each.
 fn decades(tips: &[Tip]) -> ((f64, f64), Vec<(f64, String)>) {
-    let powers = tips.iter().map(|tip| (tip.error * 1e3).log10()).filter(|power| power.is_finite());
+    let powers = tips.iter().map(|tip| math::log10(tip.error * 1e3)).filter(|power| power.is_finite());
     let (least, greatest) =
         powers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), power| (low.min(power), high.max(power)));
     let high = if greatest.is_finite() { greatest.ceil() } else { 0.0 };
     let low = least.floor().clamp(high - DECADES, high - 1.0);
     let powers = iter::successors(Some(low), |power| Some(power + 1.0)).take_while(|power| *power <= high);
-    ((low, high), powers.map(|power| (power, 10_f64.powf(power).to_string())).collect())
+    ((low, high), powers.map(|power| (power, math::powf(10.0, power).to_string())).collect())
 }
 
 /// Runs of ticks in the same state.

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use vibrissa_runtime::math;
+
 use crate::geometry::Vector2;
 
 /// The vertices of a symmetric object with a convex corner, counter-clockwise and relative to this corner, which points
@@ -19,7 +21,7 @@ use crate::geometry::Vector2;
 #[must_use]
 pub fn convex_corner(angle: f64, side: f64, back: f64) -> [Vector2; 5] {
     let half = 0.5 * (PI - angle);
-    let (width, depth) = (side * half.sin(), side * half.cos());
+    let (width, depth) = (side * math::sin(half), side * math::cos(half));
     let (left, right) = (Vector2::new(-depth, width), Vector2::new(-depth, -width));
     let behind = Vector2::new(-back, 0.0);
     [Vector2::zeros(), left, left + behind, right + behind, right]

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use vibrissa_runtime::math;
+
 use super::ShapeError;
 use super::error::{finite, finite_point, positive};
 use crate::geometry::fit::{MIN_PARTS, fit, most_arcs};
@@ -47,7 +49,7 @@ pub fn polar_curve(centre: Point2, radius: f64, harmonics: &[Harmonic]) -> Resul
     let curve = |angle: f64| {
         let (mut distance, mut growth) = (radius, 0.0);
         for &Harmonic { order, amplitude, phase } in harmonics {
-            let (sin, cos) = (f64::from(order) * angle + phase).sin_cos();
+            let (sin, cos) = math::sin_cos(f64::from(order) * angle + phase);
             distance += amplitude * cos;
             growth -= f64::from(order) * amplitude * sin;
         }
@@ -66,9 +68,9 @@ pub(crate) fn polar_curve_pieces(radius: f64, harmonics: &[Harmonic]) -> usize {
         let mut distance = [radius, 0.0, 0.0, 0.0];
         for &Harmonic { order, amplitude, phase } in harmonics {
             let order = f64::from(order);
-            let (sin, cos) = (order * angle + phase).sin_cos();
+            let (sin, cos) = math::sin_cos(order * angle + phase);
             for (derivative, value) in
-                distance.iter_mut().zip([cos, -order * sin, -order.powi(2) * cos, order.powi(3) * sin])
+                distance.iter_mut().zip([cos, -order * sin, -math::square(order) * cos, math::powi(order, 3) * sin])
             {
                 *derivative += amplitude * value;
             }
@@ -106,7 +108,7 @@ mod tests {
                 harmonics.into_iter().map(|(order, amplitude, phase)| Harmonic { order, amplitude, phase }).collect();
             let centre = Point2::new(0.3, -0.2);
             let contour = polar_curve(centre, 0.2, &harmonics).unwrap();
-            let wave = |wave: &Harmonic| wave.amplitude * (f64::from(wave.order) * angle + wave.phase).cos();
+            let wave = |wave: &Harmonic| wave.amplitude * math::cos(f64::from(wave.order) * angle + wave.phase);
             let point = centre + (0.2 + harmonics.iter().map(wave).sum::<f64>()) * unit(angle);
             prop_assert!(contour.nearest(point).distance < 1.1e-6);
             prop_assert!(contour.corners().is_empty() && contour.area() > 0.0);

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use vibrissa_runtime::math;
+
 use super::error::{finite, positive};
 use super::polar_curve::{PLACES_PER_WAVE, polar_derivatives};
 use super::{ShapeError, TunnelAxis};
@@ -124,7 +126,7 @@ impl CentreLine {
             Self::Polyline { runs, .. } => 2 * wall(runs.len()),
             Self::Sine { amplitude, wave_number, length } => {
                 let derivatives = |x: f64| {
-                    let (sin, cos) = (wave_number * x).sin_cos();
+                    let (sin, cos) = math::sin_cos(wave_number * x);
                     let slope = amplitude * wave_number;
                     let bend = Vector2::new(0.0, -slope * wave_number * sin);
                     [Vector2::new(1.0, slope * cos), bend, Vector2::new(0.0, -slope * wave_number * wave_number * cos)]
@@ -146,8 +148,9 @@ impl CentreLine {
                 let ring = |aside: f64| {
                     let derivatives = |angle: f64| {
                         let order = f64::from(*waves);
-                        let (sin, cos) = (order * angle).sin_cos();
-                        let [first, second, third] = [order * cos, -order.powi(2) * sin, -order.powi(3) * cos];
+                        let (sin, cos) = math::sin_cos(order * angle);
+                        let [first, second, third] =
+                            [order * cos, -math::square(order) * sin, -math::powi(order, 3) * cos];
                         let distance = [
                             radius + aside + amplitude * sin,
                             amplitude * first,
@@ -195,10 +198,10 @@ impl CentreLine {
             Self::Polyline { runs, corners } => polyline(runs, *corners, aside),
             Self::Sine { amplitude, wave_number, length } => {
                 let curve = |x: f64| {
-                    let (sin, cos) = (wave_number * x).sin_cos();
+                    let (sin, cos) = math::sin_cos(wave_number * x);
                     let slope = amplitude * wave_number * cos;
                     let along = Vector2::new(1.0, slope);
-                    let bend = -amplitude * wave_number * wave_number * sin / (1.0 + slope * slope).powf(1.5);
+                    let bend = -amplitude * wave_number * wave_number * sin / math::powf(1.0 + slope * slope, 1.5);
                     // Beyond the centre of its curvature, a parallel has the opposite direction.
                     let direction = along * (1.0 + aside * bend);
                     (Point2::new(x, amplitude * sin) - aside * perpendicular(along.normalize()), direction)
@@ -251,7 +254,7 @@ struct Ring {
 impl Ring {
     /// The radius at an angle, and its derivative.
     fn at(&self, angle: f64) -> (f64, f64) {
-        let (sin, cos) = (self.waves * angle).sin_cos();
+        let (sin, cos) = math::sin_cos(self.waves * angle);
         (self.radius + self.amplitude * sin, self.amplitude * self.waves * cos)
     }
 
@@ -268,7 +271,7 @@ impl Ring {
     fn opened(&self, whole: &Contour, opening: &Opening) -> Result<Contour, ShapeError> {
         let angle = |share: f64| {
             let point = whole.point_at(share * whole.length());
-            point.y.atan2(point.x).rem_euclid(TAU)
+            math::atan2(point.y, point.x).rem_euclid(TAU)
         };
         // From the end of the opening around to its beginning.
         let start = angle(opening.to);

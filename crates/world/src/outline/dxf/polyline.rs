@@ -1,5 +1,7 @@
 //! Polylines, whose sides are segments and arcs.
 
+use vibrissa_runtime::math;
+
 use crate::geometry::{EllipticArc, Piece, Vector2, perpendicular};
 
 use super::super::transform::Transform;
@@ -81,7 +83,7 @@ fn side(from: [f64; 2], to: [f64; 2], bulge: f64, transform: &Transform) -> Resu
     if length * size > MAX_RADIUS {
         return if bend <= TOLERANCE { Ok(vec![Piece::segment(start, end)]) } else { Err(OutlineFault::Curve) };
     }
-    let sweep = 4.0 * bulge.atan();
+    let sweep = 4.0 * math::atan(bulge);
     if transform.keeps_circles() {
         let hand = transform.x_axis.perp(&transform.y_axis).signum();
         return Ok(vec![Piece::arc_between(start, end, hand * sweep)]);
@@ -95,7 +97,7 @@ fn side(from: [f64; 2], to: [f64; 2], bulge: f64, transform: &Transform) -> Resu
     let arc = EllipticArc {
         centre: (transform.origin + transform.direction(centre.into())).into(),
         radii: [transform.direction([radius, 0.0]), transform.direction([0.0, radius])],
-        start_angle: outward.y.atan2(outward.x),
+        start_angle: math::atan2(outward.y, outward.x),
         sweep,
     };
     arc.pieces().ok_or(OutlineFault::Curve)

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use vibrissa_runtime::math;
 use vibrissa_runtime::units::suggest;
 
 use super::super::assemble::{LoosePiece, assemble};
@@ -186,7 +187,7 @@ fn block_transform(
     [column, row]: [f64; 2],
     transform: &Transform,
 ) -> Result<Transform, OutlineError> {
-    let (sin, cos) = insert.number(50, 0.0)?.to_radians().sin_cos();
+    let (sin, cos) = math::sin_cos(insert.number(50, 0.0)?.to_radians());
     let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
     let scale = [insert.number(41, 1.0)?, insert.number(42, 1.0)?];
     if scale.contains(&0.0) {

@@ -1,5 +1,7 @@
 //! Arcs of paths, given by their end points.
 
+use vibrissa_runtime::math;
+
 use crate::geometry::Vector2;
 
 /// An elliptic arc, in user units.
@@ -28,7 +30,7 @@ impl EndpointArc {
     /// are enlarged. `None` if a radius is 0, because the arc is then a straight line.
     pub(super) fn to_centre_arc(&self) -> Option<CentreArc> {
         let [rx, ry] = self.radii.map(f64::abs);
-        let (sin, cos) = self.rotation.sin_cos();
+        let (sin, cos) = math::sin_cos(self.rotation);
         let axes = [Vector2::new(cos, sin), Vector2::new(-sin, cos)];
         // In this frame, the ellipse is the unit circle.
         let to_circle = |offset: Vector2| Vector2::new(axes[0].dot(&offset) / rx, axes[1].dot(&offset) / ry);
@@ -44,13 +46,13 @@ impl EndpointArc {
         let far = (1.0 - half.norm_squared()).max(0.0).sqrt();
         let centre = Vector2::new(half.y, -half.x).try_normalize(0.0)? * (side * far);
         let (from, to) = (half - centre, -half - centre);
-        let turn = from.perp(&to).atan2(from.dot(&to));
+        let turn = math::atan2(from.perp(&to), from.dot(&to));
         let tau = std::f64::consts::TAU;
         let sweep = if self.is_positive { turn.rem_euclid(tau) } else { -(-turn).rem_euclid(tau) };
         Some(CentreArc {
             centre: 0.5 * (self.start + self.end) + axes[0] * (rx * centre.x) + axes[1] * (ry * centre.y),
             radii: [axes[0] * rx, axes[1] * ry],
-            start_angle: from.y.atan2(from.x),
+            start_angle: math::atan2(from.y, from.x),
             sweep,
         })
     }
@@ -72,9 +74,9 @@ mod tests {
             rx in 0.1..2.0_f64, ry in 0.1..2.0_f64, rotation in -PI..PI, from in -PI..PI, sweep in -6.2..6.2_f64,
         ) {
             prop_assume!(sweep.abs() > 0.05 && (sweep.abs() - PI).abs() > 0.05);
-            let (sin, cos) = rotation.sin_cos();
+            let (sin, cos) = math::sin_cos(rotation);
             let centre = Vector2::new(0.3, -0.2);
-            let at = |t: f64| centre + rx * t.cos() * Vector2::new(cos, sin) + ry * t.sin() * Vector2::new(-sin, cos);
+            let at = |t: f64| centre + rx * math::cos(t) * Vector2::new(cos, sin) + ry * math::sin(t) * Vector2::new(-sin, cos);
             let (is_large, is_positive) = (sweep.abs() > PI, sweep > 0.0);
             let given = EndpointArc { start: at(from), end: at(from + sweep), radii: [rx, ry], rotation, is_large, is_positive };
             let found = given.to_centre_arc().unwrap();

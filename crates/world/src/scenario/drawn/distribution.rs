@@ -1,6 +1,7 @@
 //! What one value is drawn from.
 
 use super::super::fault;
+use vibrissa_runtime::math;
 use vibrissa_runtime::units::{Quantity, parse_quantity};
 use vibrissa_text::diagnostic::Diagnostic;
 use vibrissa_yaml::{Node, Placed};
@@ -54,7 +55,7 @@ impl Distribution {
         match self {
             Self::Range { ends: [least, greatest], unit } => {
                 let value = least + share * (greatest - least);
-                let decimals = -(RESOLUTION * (greatest - least)).log10().floor();
+                let decimals = -math::log10(RESOLUTION * (greatest - least)).floor();
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]
                 let decimals = decimals.clamp(0.0, 17.0) as usize;
                 Node::Text(format!("{value:.decimals$} {unit}").trim_end().to_owned())

@@ -3,6 +3,8 @@ use super::*;
 use crate::mismatch::{Mismatch, Property};
 use std::sync::{Arc, Mutex};
 
+use vibrissa_runtime::math;
+
 const PERIOD: f64 = 1.0 / 300.0;
 
 /// A world in which everything is linear in time, and which keeps the commands that reach it.
@@ -69,7 +71,7 @@ fn samples(world: &mut Disturbed, ticks: usize) -> Vec<Sample> {
 fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let count = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / count;
-    (mean, (values.map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt())
+    (mean, (values.map(|value| math::square(value - mean)).sum::<f64>() / count).sqrt())
 }
 
 #[test]
@@ -118,7 +120,7 @@ fn a_reading_has_gain_cubic_term_offset_drift_and_resolution() {
     let (mut farthest, mut off) = (0.0_f64, 0.0_f64);
     for sample in samples(&mut world, 300) {
         let angle = exact(sample.time).0;
-        let expected = angle * (1.1 + 0.2 * (angle / 1e-3).powi(2)) + 3e-6 + 1e-6 * sample.time;
+        let expected = angle * (1.1 + 0.2 * math::square(angle / 1e-3)) + 3e-6 + 1e-6 * sample.time;
         let difference = sample.whiskers[0].base_angle - expected;
         farthest = farthest.max(difference.abs());
         let steps = sample.whiskers[0].base_angle / 1e-7;
@@ -157,7 +159,7 @@ fn wander_has_its_standard_deviation_and_its_correlation_time() {
     assert!((std / 1e-4 - 1.0).abs() < 0.05, "{std}");
     // 30 samples are the correlation time.
     let correlation = errors.windows(31).map(|span| span[0] * span[30]).sum::<f64>() / errors.len() as f64 / 1e-8;
-    assert!((correlation - (-1.0_f64).exp()).abs() < 0.05, "{correlation}");
+    assert!((correlation - math::exp(-1.0_f64)).abs() < 0.05, "{correlation}");
 }
 
 #[test]
