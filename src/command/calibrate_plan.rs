@@ -4,6 +4,7 @@ use std::io::{BufRead, stdin};
 use std::path::Path;
 
 use vibrissa_runtime::calibration::{PlannedTouch, TouchNoise, TouchReading};
+use vibrissa_runtime::math::square;
 use vibrissa_runtime::rig::Rig;
 
 use super::calibrate::CalibrateArguments;
@@ -132,7 +133,7 @@ fn recorded(next: &NextTouch, readings: &[(f64, f64)]) -> TouchReading {
         let inside: Vec<f64> = readings.iter().filter(|(time, _)| is_in(*time)).map(|(_, reading)| *reading).collect();
         let count = inside.len().max(1) as f64;
         let mean = inside.iter().sum::<f64>() / count;
-        (mean, inside.iter().map(|reading| (reading - mean).powi(2)).sum::<f64>() / (count * (count - 1.0).max(1.0)))
+        (mean, inside.iter().map(|reading| square(reading - mean)).sum::<f64>() / (count * (count - 1.0).max(1.0)))
     };
     let (in_air, first) = mean(&|time| time <= begin + RESTED);
     let (base_angle, last) = mean(&|time| time >= end - RESTED);

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use vibrissa_runtime::math;
+
 /// The first mode of a whisker that was plucked: bent, and released in the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pluck {
@@ -98,7 +100,7 @@ impl Pluck {
 /// The best frequency (Hz) and decay (s) of a grid.
 fn coarse(free: &[(f64, f64)], fastest: f64) -> (f64, f64) {
     let grid = |(least, greatest): (f64, f64), ratio: f64| {
-        std::iter::successors(Some(least), move |value| Some(value * ratio.exp()))
+        std::iter::successors(Some(least), move |value| Some(value * math::exp(ratio)))
             .take_while(move |value| *value < greatest)
     };
     let pairs = grid((FREQUENCIES.0, fastest), RATIO.0)
@@ -112,8 +114,9 @@ fn refined(free: &[(f64, f64)], (mut frequency, mut decay): (f64, f64), mut step
     let mut least = misfit(free, frequency, decay);
     for _ in 0..REFINEMENTS {
         let around = [-1.0, 0.0, 1.0_f64];
-        let near =
-            around.iter().flat_map(|f| around.map(|d| (frequency * (f * step.0).exp(), decay * (d * step.1).exp())));
+        let near = around
+            .iter()
+            .flat_map(|f| around.map(|d| (frequency * math::exp(f * step.0), decay * math::exp(d * step.1))));
         let rated = near.map(|pair| (misfit(free, pair.0, pair.1), pair));
         match rated.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((better, pair)) if better < least => (least, (frequency, decay)) = (better, pair),
@@ -132,7 +135,7 @@ fn released(readings: &[(f64, f64)]) -> Result<&[(f64, f64)], PluckError> {
     }
     let end = &readings[readings.len() - at_rest..];
     let mean = end.iter().map(|(_, reading)| reading).sum::<f64>() / at_rest as f64;
-    let noise = (end.iter().map(|(_, reading)| (reading - mean).powi(2)).sum::<f64>() / at_rest as f64).sqrt();
+    let noise = (end.iter().map(|(_, reading)| math::square(reading - mean)).sum::<f64>() / at_rest as f64).sqrt();
     let off = |reading: &(f64, f64)| (reading.1 - mean).abs();
     // A held whisker hardly moves, and a released one moves fastest at first.
     let speeds = readings.windows(2).enumerate().map(|(index, pair)| (index, (pair[1].1 - pair[0].1).abs()));
@@ -156,12 +159,12 @@ fn misfit(free: &[(f64, f64)], frequency: f64, decay: f64) -> f64 {
     let modes = |time: f64| {
         let time = time - begin;
         if angular > rate {
-            let fading = (-rate * time).exp();
-            [fading * (swing * time).cos(), fading * (swing * time).sin(), 1.0]
+            let fading = math::exp(-rate * time);
+            [fading * math::cos(swing * time), fading * math::sin(swing * time), 1.0]
         } else {
             // The product of both rates is the square of the frequency. This form has no difference of near numbers.
             let fast = rate + swing;
-            [(-angular * angular / fast * time).exp(), (-fast * time).exp(), 1.0]
+            [math::exp(-angular * angular / fast * time), math::exp(-fast * time), 1.0]
         }
     };
     let (mut normal, mut moment, mut sums) = (nalgebra::Matrix3::zeros(), nalgebra::Vector3::zeros(), (0.0, 0.0));
@@ -212,10 +215,10 @@ mod tests {
         #[test]
         fn the_first_mode_is_found_whatever_its_damping(frequency in 3.0..20.0_f64, ratio in 0.01..2.0_f64) {
             let decay = 1.0 / (ratio * TAU * frequency);
-            let noise = |index: u32| 0.5e-6 * (f64::from(index) * 2.4).sin();
+            let noise = |index: u32| 0.5e-6 * math::sin(f64::from(index) * 2.4);
             let found = Pluck::of(&plucked(frequency, decay, noise)).unwrap();
             // A mode that creeps back shows the ratio of both numbers.
-            let slow = |frequency: f64, decay: f64| (TAU * frequency).powi(2) * decay;
+            let slow = |frequency: f64, decay: f64| math::square(TAU * frequency) * decay;
             if ratio < 0.7 {
                 prop_assert!((found.first_mode / frequency - 1.0).abs() < 0.03, "{found:?} {frequency} {decay}");
                 prop_assert!((found.decay / decay - 1.0).abs() < 0.1, "{found:?} {frequency} {decay}");
@@ -229,11 +232,11 @@ mod tests {
     fn readings_that_are_no_pluck_are_refused() {
         assert!(matches!(Pluck::of(&[]), Err(PluckError::Short { count: 0 })));
         let still: Vec<_> =
-            (0..300_u32).map(|index| (f64::from(index) / 300.0, 1e-6 * (f64::from(index) * 2.4).sin())).collect();
+            (0..300_u32).map(|index| (f64::from(index) / 300.0, 1e-6 * math::sin(f64::from(index) * 2.4))).collect();
         assert_eq!(Pluck::of(&still), Err(PluckError::Still));
         let ramp = (0..600_u32).map(|index| {
             let time = f64::from(index) / 300.0;
-            (time, if time < 1.0 { 0.0 } else { 1e-4 * (time * 7.0).sin().signum() * (2.0 - time) })
+            (time, if time < 1.0 { 0.0 } else { 1e-4 * math::sin(time * 7.0).signum() * (2.0 - time) })
         });
         assert!(matches!(Pluck::of(&ramp.collect::<Vec<_>>()), Err(PluckError::Other { .. } | PluckError::Still)));
     }
