@@ -63,7 +63,7 @@ pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Res
         let Some(line) = lines.next() else { return Ok(Exit::Done) };
         session.take(index, &next, line.map_err(Failure::Standard)?.trim(), &mut files)?;
     }
-    output::result("the touches suffice")?;
+    output::result("no further touch is planned")?;
     if arguments.out.is_some() { calibrate_touches(path, arguments) } else { Ok(Exit::Done) }
 }
 
