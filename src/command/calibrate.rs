@@ -57,7 +57,7 @@ pub(super) struct CalibrateArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "whisker", "noise", "touches", "pluck"])]
     plan: Option<PathBuf>,
     /// Read the base angle of each planned touch and that in the air (urad) from a line of standard input, or `missed`, or the name of a
-    /// file with readings from the air to the touch. Touches are added to the file until they suffice, and then fitted
+    /// file with readings from the air to the touch. Touches are added to the file until no further one is planned, and then fitted
     #[arg(long = "continue", requires = "plan")]
     pub(super) continued: bool,
     /// Radius of the pin. The default is a tenth of the length of a whisker

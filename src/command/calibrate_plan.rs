@@ -34,7 +34,7 @@ struct Session<'a> {
 }
 
 /// Says the next touch of a pin after those in the file at `path`. With `--continue`, reads its readings from standard input, adds them
-/// to the file, and goes on until they suffice.
+/// to the file, and goes on until no further touch is planned.
 pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let rig = scene(arguments, &mut files)?.0.rig;

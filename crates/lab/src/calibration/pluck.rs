@@ -27,6 +27,15 @@ pub enum PluckError {
     /// The readings hardly change.
     #[error("the readings hardly change; bend the whisker by some 100 urad, and release it in the air")]
     Still,
+    /// The whisker creeps back. Many pairs of a frequency and a decay have almost this motion.
+    #[error(
+        "the whisker does not swing (its damping ratio is {ratio:.1}), so its readings do not tell its first mode and its decay apart; \
+         leave out `first_mode`, and state `damping`"
+    )]
+    Creeping {
+        /// Damping ratio of the best mode.
+        ratio: f64,
+    },
     /// The readings are no vibration in one mode.
     #[error(
         "{:.0} % of the motion after the release is no vibration in one mode; release the whisker at once, on a platform at rest, with \
@@ -59,14 +68,15 @@ const RATIO: (f64, f64) = (0.1, 0.4);
 const HEAD: f64 = 0.3;
 /// Steps of a refinement. Each that finds nothing better halves the next ones.
 const REFINEMENTS: usize = 60;
+/// Largest damping ratio of a mode that swings back visibly. The next half of a swing then has 5 % of the first.
+const MOST_RATIO: f64 = 0.7;
 /// Largest misfit of one mode.
 const MOST_MISFIT: f64 = 0.2;
 
 impl Pluck {
     /// The first mode from times (s, ascending) and readings (rad). Readings that are not finite are left out.
     ///
-    /// A free mode and a constant are fitted to the readings after the release, by least squares. The mode may be damped so much that it
-    /// does not swing.
+    /// A free mode and a constant are fitted to the readings after the release, by least squares.
     ///
     /// # Errors
     /// [`PluckError`] if the readings are not those of a plucked whisker.
@@ -81,6 +91,10 @@ impl Pluck {
         let least = misfit(free, first_mode, decay);
         if least > MOST_MISFIT {
             return Err(PluckError::Other { misfit: least });
+        }
+        let ratio = 1.0 / (TAU * first_mode * decay);
+        if ratio > MOST_RATIO {
+            return Err(PluckError::Creeping { ratio });
         }
         Ok(Self { first_mode, decay, misfit: least })
     }
@@ -159,7 +173,7 @@ fn released(readings: &[(f64, f64)], wait: f64) -> Result<&[(f64, f64)], PluckEr
     }
     let faded = free.iter().rposition(|reading| off(reading) > FADED * excursion);
     // As much again shows the rest.
-    Ok(&free[..free.len().min(2 * faded.map_or(0, |last| last + 1))])
+    Ok(&free[..free.len().min(LEAST.max(2 * faded.map_or(0, |last| last + 1)))])
 }
 
 /// Standard deviation of noise from the fourth differences of the readings, which a slow vibration hardly changes.
@@ -240,23 +254,19 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(40))]
 
         #[test]
-        fn the_first_mode_is_found_whatever_its_damping(frequency in 3.0..20.0_f64, ratio in 0.01..2.0_f64) {
+        fn the_first_mode_of_a_whisker_that_swings_is_found(frequency in 3.0..20.0_f64, ratio in 0.01..2.0_f64) {
             let decay = 1.0 / (ratio * TAU * frequency);
             let noise = |index: u32| 0.5e-6 * math::sin(f64::from(index) * 2.4);
-            let found = Pluck::of(&plucked(frequency, decay, noise)).unwrap();
-            // The rate at which a whisker creeps back.
-            let slow = |frequency: f64, decay: f64| math::square(TAU * frequency) * decay;
-            if ratio < 0.7 {
-                prop_assert!((found.first_mode / frequency - 1.0).abs() < 0.03, "{found:?} {frequency} {decay}");
-                prop_assert!((found.decay / decay - 1.0).abs() < 0.1, "{found:?} {frequency} {decay}");
-            } else if ratio > 1.4 {
-                let (found, wanted) = (slow(found.first_mode, found.decay), slow(frequency, decay));
-                prop_assert!((found / wanted - 1.0).abs() < 0.25, "{found} {wanted} {frequency} {decay}");
-            }
-            // Near the critical damping, many pairs of numbers have almost the same motion.
-            let motions = [plucked(frequency, decay, |_| 0.0), plucked(found.first_mode, found.decay, |_| 0.0)];
-            for (wanted, found) in motions[0].iter().zip(&motions[1]).take(600) {
-                prop_assert!((wanted.1 - found.1).abs() < 0.1 * 200e-6, "at {} s: {wanted:?} {found:?}", wanted.0);
+            match Pluck::of(&plucked(frequency, decay, noise)) {
+                Ok(found) => {
+                    prop_assert!(ratio < 0.8, "{found:?} for a damping ratio of {ratio}");
+                    prop_assert!((found.first_mode / frequency - 1.0).abs() < 0.03, "{found:?} {frequency} {decay}");
+                    prop_assert!((found.decay / decay - 1.0).abs() < 0.1, "{found:?} {frequency} {decay}");
+                }
+                // What creeps back is over before enough of it is seen, or has the motion of many modes.
+                Err(error) => {
+                    prop_assert!(ratio > 0.6, "{error:?} for a damping ratio of {ratio}");
+                }
             }
         }
     }
