@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+pub use super::map::MapFrame;
+
 /// The name of the protocol.
 pub const PROTOCOL: &str = "vibrissa.live.v1";
 
@@ -285,32 +287,6 @@ pub struct Frame {
     pub plots: Vec<Option<f64>>,
     /// What the map by touch has gained. `None` in most ticks, and without a map.
     pub map: Option<Box<MapFrame>>,
-}
-
-/// What the map by touch has gained since the tick before that had one. Cells are a row, counted upwards, and its first and last
-/// column, counted to the right.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct MapFrame {
-    /// Side of a cell (m).
-    pub cell: f64,
-    /// The corner with the least coordinates of the cell 0 in row 0 (m, world frame).
-    pub origin: [f64; 2],
-    /// The cells that were proved free.
-    pub free: Vec<[i32; 3]>,
-    /// The cells of surfaces. Some of them may be proved free later.
-    pub blocked: Vec<[i32; 3]>,
-    /// All positions of the platform on the route (m, world frame), the goal last. Empty without a route.
-    pub route: Vec<[f64; 2]>,
-    /// The place that is to be touched or looked at next (m, world frame).
-    pub target: Option<[f64; 2]>,
-}
-
-impl MapFrame {
-    /// Adds what the map had gained before.
-    pub fn prepend(&mut self, before: Self) {
-        self.free.splice(0..0, before.free);
-        self.blocked.splice(0..0, before.blocked);
-    }
 }
 
 /// A whisker in a tick.
