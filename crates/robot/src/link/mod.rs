@@ -19,6 +19,7 @@ mod sender_clock;
 mod udp;
 mod wire;
 
+#[cfg(feature = "emulation")]
 pub(crate) use acknowledgements::Acknowledgements;
 pub use actuator::{Actuator, LinkError, StampedCommand};
 pub use command_gate::{CommandGate, CommandVerdict};
