@@ -16,7 +16,7 @@ use crate::platform::MUJOCO_VERSION;
 /// The release of maturin that builds the wheel.
 const MATURIN: &str = "maturin>=1.9.4,<2";
 /// What the tests need besides the wheel.
-const PACKAGES: [&str; 2] = ["gymnasium>=1.0", "pytest>=8"];
+const PACKAGES: [&str; 5] = ["gymnasium>=1.0", "ipykernel>=6", "matplotlib>=3.8", "nbclient>=0.10", "pytest>=8"];
 
 /// Why the package was not built or its tests failed, and what to do.
 #[derive(Debug, Error)]

@@ -1,10 +1,12 @@
 """A figure of the thesis, drawn anew: the estimated contour of an object.
 
 Figures 5.1 to 5.7 of the thesis have one object each. Points are green if their error is within one standard deviation of the mean, and red
-otherwise. This is the figure of the box:
+otherwise. Crosses are the edge points (red) and the retrieved points (black). This is the figure of the box:
 
     pip install matplotlib
     python crates/python/examples/figure.py box --out box.png
+
+The notebook `figure.ipynb` draws it step by step, with the functions of this file.
 """
 
 import argparse
@@ -27,8 +29,23 @@ def distances_m(points, outlines):
     return nearest
 
 
+def retrievals(ticks):
+    """Edge points and retrieved points (m, N x 2 each): the last recorded tip before a whisker is lost, and the tip at which it is found again."""
+    pairs = []
+    for whisker in range(ticks["recorded"].shape[1]):
+        tips, recorded = ticks["tip_m"][:, whisker], ticks["recorded"][:, whisker]
+        edge = None
+        for tick in np.flatnonzero(ticks["lost"][:, whisker] | ticks["found"][:, whisker]):
+            if ticks["found"][tick, whisker] and edge is not None:
+                pairs.append((edge, tips[tick]))
+                edge = None
+            elif ticks["lost"][tick, whisker] and edge is None and recorded[: tick + 1].any():
+                edge = tips[: tick + 1][recorded[: tick + 1]][-1]
+    return np.array(pairs).reshape(-1, 2, 2).swapaxes(0, 1)
+
+
 def draw(axes, trial, result):
-    """Draws the object, the way of the platform and the recorded tips. Gives the errors of the tips (m)."""
+    """Draws the object, the way of the platform, the recorded tips and the retrievals. Gives the errors of the tips (m)."""
     ticks = result.ticks
     tips = ticks["tip_m"][ticks["recorded"]]
     outlines = trial.outlines()
@@ -36,10 +53,13 @@ def draw(axes, trial, result):
     for outline in outlines:
         axes.fill(*outline.T, facecolor="0.92", edgecolor="0.6", linewidth=0.5)
     axes.plot(*ticks["position_m"].T, color="tab:blue", linewidth=0.6, label="centre of mass")
-    axes.plot(*ticks["position_m"][0], "kx", label="start")
+    axes.plot(*ticks["position_m"][0], "k.", label="start")
     usual = np.abs(errors - errors.mean()) < errors.std(ddof=1)
     for among, colour, label in [(usual, "tab:green", "estimated contour"), (~usual, "tab:red", "its largest errors")]:
         axes.scatter(*tips[among].T, c=colour, s=2, label=label, zorder=3)
+    for points, colour, label in zip(retrievals(ticks), ["tab:red", "black"], ["edge points", "retrieved points"]):
+        if len(points):
+            axes.scatter(*points.T, c=colour, marker="x", s=25, linewidths=1, label=label, zorder=4)
     axes.set(aspect="equal", xlabel="x, m", ylabel="y, m")
     axes.legend(loc="center", fontsize="x-small")
     return errors

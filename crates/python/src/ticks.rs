@@ -4,6 +4,7 @@ use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vibrissa::run::{TickRecord, Trace};
+use vibrissa_runtime::machine::Mark;
 
 use crate::arrays::{list, table, vectors};
 
@@ -33,6 +34,9 @@ pub(crate) fn dictionary<'py>(py: Python<'py>, trace: &Trace) -> PyResult<Bound<
     columns.whiskers("recorded", |tick, whisker| tick.tips[whisker].is_some())?;
     columns
         .whisker_vectors("true_tip_m", |tick, whisker| tick.tip_ends[whisker].map_or(NONE, |tip| tip.coords.into()))?;
+    for mark in [Mark::Lost, Mark::Found] {
+        columns.marks(mark)?;
+    }
     Ok(columns.dictionary)
 }
 
@@ -88,6 +92,18 @@ impl Columns<'_, '_> {
     /// A vector for each tick and whisker.
     fn whisker_vectors(&self, name: &str, value: impl Fn(&TickRecord, usize) -> [f64; 2]) -> PyResult<()> {
         self.dictionary.set_item(name, vectors(self.py, self.by_whisker(value), self.trace.whiskers.len())?)
+    }
+
+    /// For each tick and whisker, whether the policy made this mark.
+    fn marks(&self, mark: Mark) -> PyResult<()> {
+        let width = self.trace.whiskers.len();
+        let mut made = vec![false; self.trace.ticks.len() * width];
+        for record in self.trace.marks.iter().filter(|record| record.mark == mark && record.whisker < width) {
+            if let Some(place) = made.get_mut(record.tick * width + record.whisker) {
+                *place = true;
+            }
+        }
+        self.dictionary.set_item(mark.name(), table(self.py, made, width)?)
     }
 
     fn by_whisker<T>(&self, value: impl Fn(&TickRecord, usize) -> T) -> Vec<T> {

@@ -71,6 +71,16 @@ def test_the_arrays_of_ticks_are_those_that_the_program_writes(program, tmp_path
         assert np.array_equal(ticks[key], values, equal_nan=ticks[key].dtype == float), key
 
 
+def test_the_arrays_of_marks_are_those_that_the_program_writes(program, tmp_path):
+    file = tmp_path / "ticks.jsonl"
+    program("run", "scenarios/box.yaml", "--simulator", "quasistatic", "--ticks", file)
+    lines = [json.loads(line) for line in file.read_text().splitlines()]
+    ticks = vibrissa.run("box", world="quasistatic").ticks
+    for mark in ["lost", "found"]:
+        made = [[mark in whisker["marks"] for whisker in line["whiskers"]] for line in lines]
+        assert np.array_equal(ticks[mark], made) and ticks[mark].sum() >= 4
+
+
 def test_recorded_tips_are_as_near_to_the_outline_as_the_figures_say():
     trial = vibrissa.Trial("disk", world="quasistatic")
     result = trial.run()
