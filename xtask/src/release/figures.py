@@ -5,8 +5,8 @@ import sys
 
 import vibrissa
 
-# Measured times and the origin differ between any two runs.
-OWN = {"provenance", "wall_s", "realtime", "tick_us", "format", "version", "baseline", "verdicts"}
+# Measured times and the origin differ between any two runs. Only a bench has conditions and verdicts.
+OWN = {"provenance", "wall_s", "start_s", "realtime", "tick_us", "format", "version", "baseline", "conditions", "passed", "verdicts"}
 
 with open(sys.argv[1]) as file:
     rows = json.load(file)

@@ -43,7 +43,7 @@ pub(super) fn check(places: &Places) -> Result<(), ReleaseError> {
 /// Runs the scene of the README's first command.
 fn demonstrate(program: &Path, emulator: Option<[&str; 3]>, folder: &Path) -> Result<(), ReleaseError> {
     let mut command = run(program, emulator, folder);
-    command.args(["run", "disk", "--quiet", "--out", "out"]);
+    command.args(["run", "disk", "--out", "out"]).stdout(Stdio::null());
     if emulator.is_some() {
         command.args(["--simulator", "quasistatic"]);
     }
@@ -62,8 +62,10 @@ fn wheel(places: &Places, folder: &Path, bench: &Path) -> Result<(), ReleaseErro
     // Only its library is needed, not what its viewer depends on.
     let mujoco = format!("mujoco=={MUJOCO_VERSION}");
     python::install(&python, [OsStr::new("--no-deps"), OsStr::new(&mujoco)])?;
+    let comparison = folder.join("figures.py");
+    fs::write(&comparison, FIGURES).map_err(disk("write", &comparison))?;
     let mut command = alone(python.as_os_str(), folder);
-    command.args(["-c", FIGURES]).arg(bench);
+    command.arg(&comparison).arg(bench);
     succeed(command, "python")
 }
 
