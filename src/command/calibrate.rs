@@ -54,7 +54,7 @@ pub(super) struct CalibrateArguments {
     pluck: Option<PathBuf>,
     /// File of touches of a pin so far, which may be missing. Prints the poses of the platform for the next touch. The pin is the origin
     /// of the world frame
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "whisker", "noise", "touches", "pluck"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "noise", "touches", "pluck"])]
     plan: Option<PathBuf>,
     /// Read the base angle of each planned touch and that in the air (urad) from a line of standard input, or `missed`, or the name of a
     /// file with readings from the air to the touch. Touches are added to the file until no further one is planned, and then fitted
@@ -90,7 +90,7 @@ pub(super) struct CalibrateArguments {
     /// Counts of the whisker at rest, measured with the contacts
     #[arg(long, value_name = "COUNTS", requires = "config", allow_negative_numbers = true)]
     neutral: Option<f64>,
-    /// Whisker to calibrate. The default is the first whisker of the rig
+    /// Whisker to calibrate. The default is the first whisker of the rig, and with --plan all of them
     #[arg(long, value_name = "NAME")]
     pub(super) whisker: Option<String>,
     /// Simulate the estimated noise and resolution of the real sensors

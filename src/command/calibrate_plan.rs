@@ -5,14 +5,14 @@ use std::path::Path;
 
 use vibrissa_runtime::calibration::{PlannedTouch, TouchNoise, TouchReading};
 use vibrissa_runtime::math::square;
-use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::calibrate::CalibrateArguments;
 use super::calibrate_array::{calibrate_touches, scene};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use vibrissa_lab::calibration::{NextTouch, Pin, TouchLimits, read_touches, write_touches};
+use vibrissa_lab::calibration::{NextTouch, Pin, TouchFile, TouchLimits, read_touch_file, write_touch_file};
 use vibrissa_lab::load;
 use vibrissa_text::file::{CommandFiles, replace};
 use vibrissa_world::geometry::{Point2, Pose};
@@ -28,9 +28,9 @@ struct Session<'a> {
     rig: Rig,
     noise: TouchNoise,
     pin: (Pin, f64),
-    /// Touches in the order of time, each with the index of its whisker.
-    touches: Vec<(usize, TouchReading)>,
-    missed: Vec<Vec<PlannedTouch>>,
+    /// The whisker to calibrate, or `None` for all of them.
+    only: Option<usize>,
+    file: TouchFile,
 }
 
 /// Says the next touch of a pin after those in the file at `path`. With `--continue`, reads its readings from standard input, adds them
@@ -38,47 +38,52 @@ struct Session<'a> {
 pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let rig = scene(arguments, &mut files)?.0.rig;
-    let named = if path.exists() { load::touches(path, &mut files)? } else { Vec::new() };
-    let mut touches = Vec::with_capacity(named.len());
-    for (name, touch) in named {
-        let index = rig.indices(std::slice::from_ref(&name)).map_err(Failure::NoWhisker)?;
-        touches.extend(index.first().map(|index| (*index, touch)));
-    }
+    let file = if path.exists() { load::touch_file(path, &mut files)? } else { TouchFile::default() };
+    let in_file = file.touches.iter().map(|(name, _)| name).chain(file.missed.iter().map(|(name, _)| name));
+    let names: Vec<_> = arguments.whisker.iter().chain(in_file).cloned().collect();
+    let indices = rig.indices(&names).map_err(Failure::NoWhisker)?;
     // A pin as large as that of a simulated array.
     let radius = arguments.pin_radius.unwrap_or_else(|| 0.1 * rig.whiskers.first().map_or(0.1, |one| one.shaft.length));
     let mut session = Session {
         path,
-        missed: vec![Vec::new(); rig.whiskers.len()],
+        only: arguments.whisker.as_ref().and_then(|_| indices.first().copied()),
+        file,
         rig,
         noise: TouchNoise { position: arguments.position_noise, heading: arguments.heading_noise },
         pin: (Pin { centre: Point2::origin(), radius }, arguments.heading),
-        touches,
     };
     let mut lines = stdin().lock().lines();
-    while let Some((index, next)) = session.next() {
-        session.say(index, &next)?;
+    while let Some((whisker, next)) = session.next() {
+        let name = whisker.name.clone();
+        session.say(&name, &next)?;
         if !arguments.continued {
             return Ok(Exit::Done);
         }
         let Some(line) = lines.next() else { return Ok(Exit::Done) };
-        session.take(index, &next, line.map_err(Failure::Standard)?.trim(), &mut files)?;
+        session.take(name, &next, line.map_err(Failure::Standard)?.trim(), &mut files)?;
     }
     output::result("no further touch is planned")?;
     if arguments.out.is_some() { calibrate_touches(path, arguments) } else { Ok(Exit::Done) }
 }
 
 impl Session<'_> {
-    fn next(&self) -> Option<(usize, NextTouch)> {
-        let of_whisker = |index: usize| {
-            let touches = self.touches.iter().filter(move |(other, _)| *other == index);
-            touches.map(|(_, touch)| *touch).collect::<Vec<_>>()
-        };
-        let readings: Vec<_> = (0..self.rig.whiskers.len()).map(of_whisker).collect();
-        NextTouch::of_rig(&self.rig, &readings, &self.missed, &self.noise, self.pin, &TouchLimits::default())
+    /// The next touch of the first whisker that needs one.
+    fn next(&self) -> Option<(&Whisker, NextTouch)> {
+        let wanted =
+            self.rig.whiskers.iter().enumerate().filter(|(index, _)| self.only.is_none_or(|only| only == *index));
+        let mut needed = wanted.filter_map(|(_, whisker)| {
+            let of_whisker = |name: &String| *name == whisker.name;
+            let touches = self.file.touches.iter().filter(|(name, _)| of_whisker(name));
+            let missed = self.file.missed.iter().filter(|(name, _)| of_whisker(name));
+            let readings: Vec<TouchReading> = touches.map(|(_, touch)| *touch).collect();
+            let missed: Vec<PlannedTouch> = missed.map(|(_, touch)| touch.planned(whisker)).collect();
+            let limits = TouchLimits::default();
+            Some((whisker, NextTouch::of(whisker, &readings, &missed, &self.noise, self.pin, &limits)?))
+        });
+        needed.next()
     }
 
-    fn say(&self, index: usize, next: &NextTouch) -> Result<(), Failure> {
-        let name = self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
+    fn say(&self, name: &str, next: &NextTouch) -> Result<(), Failure> {
         let pose = |Pose { position, heading }: Pose| {
             format!(
                 "x {:.2} mm, y {:.2} mm, heading {:.2} deg",
@@ -87,7 +92,7 @@ impl Session<'_> {
                 heading.to_degrees()
             )
         };
-        let number = self.touches.iter().filter(|(other, _)| *other == index).count() + 1;
+        let number = self.file.touches.iter().filter(|(other, _)| other == name).count() + 1;
         output::result(format_args!("{name}, touch {number}; tips are known to {:.3} mm", 1e3 * next.tip_deviation))?;
         output::result(format_args!("  in the air: {}", pose(next.in_air)))?;
         output::result(format_args!("  touch:      {}", pose(next.touch)))?;
@@ -95,12 +100,10 @@ impl Session<'_> {
     }
 
     /// Adds the touch of a line: `READING IN_AIR [DEVIATION]` (urad), `missed`, or the name of a file of readings.
-    fn take(&mut self, index: usize, next: &NextTouch, line: &str, files: &mut CommandFiles) -> Result<(), Failure> {
+    fn take(&mut self, name: String, next: &NextTouch, line: &str, files: &mut CommandFiles) -> Result<(), Failure> {
         if line == "missed" {
-            if let Some(missed) = self.missed.get_mut(index) {
-                missed.push(next.planned);
-            }
-            return Ok(());
+            self.file.missed.push((name, next.missed()));
+            return self.write(&write_touch_file(&self.file)?);
         }
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
         let touch = match numbers.as_deref() {
@@ -113,15 +116,18 @@ impl Session<'_> {
             }
             _ => recorded(next, &load::timed_readings(Path::new(line), files)?),
         };
-        self.touches.push((index, touch));
-        let name = |index: usize| self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
-        let text = write_touches(self.touches.iter().map(|(index, touch)| (name(*index), touch)))?;
+        self.file.touches.push((name, touch));
+        let text = write_touch_file(&self.file)?;
         // The file that is written must be one that is read.
-        if let Err(refusal) = read_touches(text.as_bytes()) {
+        if let Err(refusal) = read_touch_file(text.as_bytes()) {
             output::message(format_args!("this touch is left out: {refusal}"));
-            self.touches.pop();
+            self.file.touches.pop();
             return Ok(());
         }
+        self.write(&text)
+    }
+
+    fn write(&self, text: &str) -> Result<(), Failure> {
         replace(self.path, text.as_bytes()).map_err(|cause| Failure::Plan { path: self.path.to_owned(), cause })
     }
 }
