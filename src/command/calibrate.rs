@@ -18,6 +18,8 @@ use super::failure::Failure;
 use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
 use super::provenance::provenance;
+#[cfg(unix)]
+use super::stage_options::StageOptions;
 use super::trials::make_directory;
 use super::values::{parse_heading, parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use vibrissa_lab::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
@@ -72,6 +74,9 @@ pub(super) struct CalibrateArguments {
     /// Standard deviation of the heading of the platform in measured touches
     #[arg(long, value_name = "ANGLE", default_value = "0.02 deg", requires = "touched", value_parser = parse_jitter_heading)]
     pub(super) heading_noise: f64,
+    #[cfg(unix)]
+    #[command(flatten)]
+    pub(super) stage: StageOptions,
     #[command(flatten)]
     pub(super) world: WorldOptions,
     #[command(flatten)]

@@ -12,6 +12,8 @@ use super::calibrate_array::{calibrate_touches, scene};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+#[cfg(unix)]
+use crate::stage::Stage;
 use vibrissa_lab::calibration::{NextTouch, Pin, TouchFile, TouchLimits, read_touch_file, write_touch_file};
 use vibrissa_lab::load;
 use vibrissa_text::file::{CommandFiles, replace};
@@ -21,6 +23,43 @@ use vibrissa_world::geometry::{Point2, Pose};
 const RESTED: f64 = 0.5;
 /// Least standard deviation (rad) of a reading relative to the air, for a reading without one.
 const LEAST_DEVIATION: f64 = 1e-7;
+
+/// The lines of standard input.
+type StdinLines = std::io::Lines<std::io::StdinLock<'static>>;
+
+/// The next line of standard input, if there is one.
+fn next_line(lines: &mut StdinLines) -> Result<Option<String>, Failure> {
+    lines.next().transpose().map_err(Failure::Standard)
+}
+
+/// Lets the stage make a touch. The result is the line that says its reading and that in the air.
+#[cfg(unix)]
+fn touched(stage: &mut Stage, next: &NextTouch, lines: &mut StdinLines) -> Result<Option<String>, Failure> {
+    stage.approach(next.in_air.position, next.touch.position)?;
+    output::result("  at rest in the air")?;
+    let in_air = next_line(lines)?;
+    let reading = match in_air {
+        Some(_) => {
+            stage.slide(next.touch.position)?;
+            output::result("  at rest in the touch")?;
+            next_line(lines)?
+        }
+        None => None,
+    };
+    stage.slide(next.in_air.position)?;
+    stage.rise()?;
+    Ok(in_air.zip(reading).map(|(in_air, reading)| joined(&in_air, &reading)))
+}
+
+/// `READING IN_AIR [DEVIATION]` from the two lines of a touch. `missed` and the name of a file stay as they are.
+#[cfg(unix)]
+fn joined(in_air: &str, line: &str) -> String {
+    let mut words = line.split_whitespace();
+    match words.next().filter(|word| word.parse::<f64>().is_ok()) {
+        Some(reading) => words.fold(format!("{reading} {in_air}"), |line, word| format!("{line} {word}")),
+        None => line.to_owned(),
+    }
+}
 
 /// The touches of an array so far.
 struct Session<'a> {
@@ -52,6 +91,8 @@ pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Res
         noise: TouchNoise { position: arguments.position_noise, heading: arguments.heading_noise },
         pin: (Pin { centre: Point2::origin(), radius }, arguments.heading),
     };
+    #[cfg(unix)]
+    let mut stage = arguments.stage.settings().map(Stage::open).transpose()?;
     let mut lines = stdin().lock().lines();
     while let Some((whisker, next)) = session.next() {
         let name = whisker.name.clone();
@@ -59,8 +100,15 @@ pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Res
         if !arguments.continued {
             return Ok(Exit::Done);
         }
-        let Some(line) = lines.next() else { return Ok(Exit::Done) };
-        session.take(name, &next, line.map_err(Failure::Standard)?.trim(), &mut files)?;
+        #[cfg(unix)]
+        let line = match &mut stage {
+            Some(stage) => touched(stage, &next, &mut lines)?,
+            None => next_line(&mut lines)?,
+        };
+        #[cfg(not(unix))]
+        let line = next_line(&mut lines)?;
+        let Some(line) = line else { return Ok(Exit::Done) };
+        session.take(name, &next, line.trim(), &mut files)?;
     }
     output::result("no further touch is planned")?;
     if arguments.out.is_some() { calibrate_touches(path, arguments) } else { Ok(Exit::Done) }
