@@ -110,6 +110,8 @@ mod command;
 #[cfg(feature = "live")]
 pub mod live;
 pub mod services;
+#[cfg(unix)]
+mod stage;
 #[cfg(any(feature = "render", feature = "viewer"))]
 pub mod video;
 

@@ -18,6 +18,8 @@ use super::failure::Failure;
 use super::options::{Format, Jobs, MismatchOptions, WorldOptions};
 use super::output;
 use super::provenance::provenance;
+#[cfg(unix)]
+use super::stage_options::StageOptions;
 use super::trials::make_directory;
 use super::values::{parse_heading, parse_jitter, parse_jitter_heading, parse_runs, parse_seed};
 use vibrissa_lab::calibration::{CountSet, Fitted, HeldOut, fit, fit_field, write_sets};
@@ -54,7 +56,7 @@ pub(super) struct CalibrateArguments {
     pluck: Option<PathBuf>,
     /// File of touches of a pin so far, which may be missing. Prints the poses of the platform for the next touch. The pin is the origin
     /// of the world frame
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "whisker", "noise", "touches", "pluck"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["itself", "sets", "config", "noise", "touches", "pluck"])]
     plan: Option<PathBuf>,
     /// Read the base angle of each planned touch and that in the air (urad) from a line of standard input, or `missed`, or the name of a
     /// file with readings from the air to the touch. Touches are added to the file until no further one is planned, and then fitted
@@ -72,6 +74,9 @@ pub(super) struct CalibrateArguments {
     /// Standard deviation of the heading of the platform in measured touches
     #[arg(long, value_name = "ANGLE", default_value = "0.02 deg", requires = "touched", value_parser = parse_jitter_heading)]
     pub(super) heading_noise: f64,
+    #[cfg(unix)]
+    #[command(flatten)]
+    pub(super) stage: StageOptions,
     #[command(flatten)]
     pub(super) world: WorldOptions,
     #[command(flatten)]
@@ -90,7 +95,7 @@ pub(super) struct CalibrateArguments {
     /// Counts of the whisker at rest, measured with the contacts
     #[arg(long, value_name = "COUNTS", requires = "config", allow_negative_numbers = true)]
     neutral: Option<f64>,
-    /// Whisker to calibrate. The default is the first whisker of the rig
+    /// Whisker to calibrate. The default is the first whisker of the rig, and with --plan all of them
     #[arg(long, value_name = "NAME")]
     pub(super) whisker: Option<String>,
     /// Simulate the estimated noise and resolution of the real sensors

@@ -5,14 +5,16 @@ use std::path::Path;
 
 use vibrissa_runtime::calibration::{PlannedTouch, TouchNoise, TouchReading};
 use vibrissa_runtime::math::square;
-use vibrissa_runtime::rig::Rig;
+use vibrissa_runtime::rig::{Rig, Whisker};
 
 use super::calibrate::CalibrateArguments;
 use super::calibrate_array::{calibrate_touches, scene};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use vibrissa_lab::calibration::{NextTouch, Pin, TouchLimits, read_touches, write_touches};
+#[cfg(unix)]
+use crate::stage::Stage;
+use vibrissa_lab::calibration::{NextTouch, Pin, TouchFile, TouchLimits, read_touch_file, write_touch_file};
 use vibrissa_lab::load;
 use vibrissa_text::file::{CommandFiles, replace};
 use vibrissa_world::geometry::{Point2, Pose};
@@ -22,15 +24,52 @@ const RESTED: f64 = 0.5;
 /// Least standard deviation (rad) of a reading relative to the air, for a reading without one.
 const LEAST_DEVIATION: f64 = 1e-7;
 
+/// The lines of standard input.
+type StdinLines = std::io::Lines<std::io::StdinLock<'static>>;
+
+/// The next line of standard input, if there is one.
+fn next_line(lines: &mut StdinLines) -> Result<Option<String>, Failure> {
+    lines.next().transpose().map_err(Failure::Standard)
+}
+
+/// Lets the stage make a touch. The result is the line that says its reading and that in the air.
+#[cfg(unix)]
+fn touched(stage: &mut Stage, next: &NextTouch, lines: &mut StdinLines) -> Result<Option<String>, Failure> {
+    stage.approach(next.in_air.position, next.touch.position)?;
+    output::result("  at rest in the air")?;
+    let in_air = next_line(lines)?;
+    let reading = match in_air {
+        Some(_) => {
+            stage.slide(next.touch.position)?;
+            output::result("  at rest in the touch")?;
+            next_line(lines)?
+        }
+        None => None,
+    };
+    stage.slide(next.in_air.position)?;
+    stage.rise()?;
+    Ok(in_air.zip(reading).map(|(in_air, reading)| joined(&in_air, &reading)))
+}
+
+/// `READING IN_AIR [DEVIATION]` from the two lines of a touch. `missed` and the name of a file stay as they are.
+#[cfg(unix)]
+fn joined(in_air: &str, line: &str) -> String {
+    let mut words = line.split_whitespace();
+    match words.next().filter(|word| word.parse::<f64>().is_ok()) {
+        Some(reading) => words.fold(format!("{reading} {in_air}"), |line, word| format!("{line} {word}")),
+        None => line.to_owned(),
+    }
+}
+
 /// The touches of an array so far.
 struct Session<'a> {
     path: &'a Path,
     rig: Rig,
     noise: TouchNoise,
     pin: (Pin, f64),
-    /// Touches in the order of time, each with the index of its whisker.
-    touches: Vec<(usize, TouchReading)>,
-    missed: Vec<Vec<PlannedTouch>>,
+    /// The whisker to calibrate, or `None` for all of them.
+    only: Option<usize>,
+    file: TouchFile,
 }
 
 /// Says the next touch of a pin after those in the file at `path`. With `--continue`, reads its readings from standard input, adds them
@@ -38,47 +77,61 @@ struct Session<'a> {
 pub(super) fn calibrate_plan(path: &Path, arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let rig = scene(arguments, &mut files)?.0.rig;
-    let named = if path.exists() { load::touches(path, &mut files)? } else { Vec::new() };
-    let mut touches = Vec::with_capacity(named.len());
-    for (name, touch) in named {
-        let index = rig.indices(std::slice::from_ref(&name)).map_err(Failure::NoWhisker)?;
-        touches.extend(index.first().map(|index| (*index, touch)));
-    }
+    let file = if path.exists() { load::touch_file(path, &mut files)? } else { TouchFile::default() };
+    let in_file = file.touches.iter().map(|(name, _)| name).chain(file.missed.iter().map(|(name, _)| name));
+    let names: Vec<_> = arguments.whisker.iter().chain(in_file).cloned().collect();
+    let indices = rig.indices(&names).map_err(Failure::NoWhisker)?;
     // A pin as large as that of a simulated array.
     let radius = arguments.pin_radius.unwrap_or_else(|| 0.1 * rig.whiskers.first().map_or(0.1, |one| one.shaft.length));
     let mut session = Session {
         path,
-        missed: vec![Vec::new(); rig.whiskers.len()],
+        only: arguments.whisker.as_ref().and_then(|_| indices.first().copied()),
+        file,
         rig,
         noise: TouchNoise { position: arguments.position_noise, heading: arguments.heading_noise },
         pin: (Pin { centre: Point2::origin(), radius }, arguments.heading),
-        touches,
     };
+    #[cfg(unix)]
+    let mut stage = arguments.stage.settings().map(Stage::open).transpose()?;
     let mut lines = stdin().lock().lines();
-    while let Some((index, next)) = session.next() {
-        session.say(index, &next)?;
+    while let Some((whisker, next)) = session.next() {
+        let name = whisker.name.clone();
+        session.say(&name, &next)?;
         if !arguments.continued {
             return Ok(Exit::Done);
         }
-        let Some(line) = lines.next() else { return Ok(Exit::Done) };
-        session.take(index, &next, line.map_err(Failure::Standard)?.trim(), &mut files)?;
+        #[cfg(unix)]
+        let line = match &mut stage {
+            Some(stage) => touched(stage, &next, &mut lines)?,
+            None => next_line(&mut lines)?,
+        };
+        #[cfg(not(unix))]
+        let line = next_line(&mut lines)?;
+        let Some(line) = line else { return Ok(Exit::Done) };
+        session.take(name, &next, line.trim(), &mut files)?;
     }
     output::result("no further touch is planned")?;
     if arguments.out.is_some() { calibrate_touches(path, arguments) } else { Ok(Exit::Done) }
 }
 
 impl Session<'_> {
-    fn next(&self) -> Option<(usize, NextTouch)> {
-        let of_whisker = |index: usize| {
-            let touches = self.touches.iter().filter(move |(other, _)| *other == index);
-            touches.map(|(_, touch)| *touch).collect::<Vec<_>>()
-        };
-        let readings: Vec<_> = (0..self.rig.whiskers.len()).map(of_whisker).collect();
-        NextTouch::of_rig(&self.rig, &readings, &self.missed, &self.noise, self.pin, &TouchLimits::default())
+    /// The next touch of the first whisker that needs one.
+    fn next(&self) -> Option<(&Whisker, NextTouch)> {
+        let wanted =
+            self.rig.whiskers.iter().enumerate().filter(|(index, _)| self.only.is_none_or(|only| only == *index));
+        let mut needed = wanted.filter_map(|(_, whisker)| {
+            let of_whisker = |name: &String| *name == whisker.name;
+            let touches = self.file.touches.iter().filter(|(name, _)| of_whisker(name));
+            let missed = self.file.missed.iter().filter(|(name, _)| of_whisker(name));
+            let readings: Vec<TouchReading> = touches.map(|(_, touch)| *touch).collect();
+            let missed: Vec<PlannedTouch> = missed.map(|(_, touch)| touch.planned(whisker)).collect();
+            let limits = TouchLimits::default();
+            Some((whisker, NextTouch::of(whisker, &readings, &missed, &self.noise, self.pin, &limits)?))
+        });
+        needed.next()
     }
 
-    fn say(&self, index: usize, next: &NextTouch) -> Result<(), Failure> {
-        let name = self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
+    fn say(&self, name: &str, next: &NextTouch) -> Result<(), Failure> {
         let pose = |Pose { position, heading }: Pose| {
             format!(
                 "x {:.2} mm, y {:.2} mm, heading {:.2} deg",
@@ -87,7 +140,7 @@ impl Session<'_> {
                 heading.to_degrees()
             )
         };
-        let number = self.touches.iter().filter(|(other, _)| *other == index).count() + 1;
+        let number = self.file.touches.iter().filter(|(other, _)| other == name).count() + 1;
         output::result(format_args!("{name}, touch {number}; tips are known to {:.3} mm", 1e3 * next.tip_deviation))?;
         output::result(format_args!("  in the air: {}", pose(next.in_air)))?;
         output::result(format_args!("  touch:      {}", pose(next.touch)))?;
@@ -95,12 +148,10 @@ impl Session<'_> {
     }
 
     /// Adds the touch of a line: `READING IN_AIR [DEVIATION]` (urad), `missed`, or the name of a file of readings.
-    fn take(&mut self, index: usize, next: &NextTouch, line: &str, files: &mut CommandFiles) -> Result<(), Failure> {
+    fn take(&mut self, name: String, next: &NextTouch, line: &str, files: &mut CommandFiles) -> Result<(), Failure> {
         if line == "missed" {
-            if let Some(missed) = self.missed.get_mut(index) {
-                missed.push(next.planned);
-            }
-            return Ok(());
+            self.file.missed.push((name, next.missed()));
+            return self.write(&write_touch_file(&self.file)?);
         }
         let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
         let touch = match numbers.as_deref() {
@@ -113,15 +164,18 @@ impl Session<'_> {
             }
             _ => recorded(next, &load::timed_readings(Path::new(line), files)?),
         };
-        self.touches.push((index, touch));
-        let name = |index: usize| self.rig.whiskers.get(index).map_or("", |whisker| whisker.name.as_str());
-        let text = write_touches(self.touches.iter().map(|(index, touch)| (name(*index), touch)))?;
+        self.file.touches.push((name, touch));
+        let text = write_touch_file(&self.file)?;
         // The file that is written must be one that is read.
-        if let Err(refusal) = read_touches(text.as_bytes()) {
+        if let Err(refusal) = read_touch_file(text.as_bytes()) {
             output::message(format_args!("this touch is left out: {refusal}"));
-            self.touches.pop();
+            self.file.touches.pop();
             return Ok(());
         }
+        self.write(&text)
+    }
+
+    fn write(&self, text: &str) -> Result<(), Failure> {
         replace(self.path, text.as_bytes()).map_err(|cause| Failure::Plan { path: self.path.to_owned(), cause })
     }
 }

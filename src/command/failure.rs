@@ -114,6 +114,9 @@ pub(super) enum Failure {
     TooFewPolicies { count: usize },
     #[error("cannot write {}: {words}", path.display(), words = in_words(cause))]
     Plan { path: PathBuf, cause: std::io::Error },
+    #[cfg(unix)]
+    #[error(transparent)]
+    Stage(#[from] crate::stage::StageError),
     #[error("cannot read standard input: {words}", words = in_words(.0))]
     Standard(std::io::Error),
     #[error("{}: {cause}", path.display())]

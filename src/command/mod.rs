@@ -45,6 +45,8 @@ mod run_recording;
 #[cfg(test)]
 mod schema;
 mod services;
+#[cfg(unix)]
+mod stage_options;
 mod stress;
 mod sweep;
 mod test;

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 use std::fmt::Display;
 use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
+#[cfg(unix)]
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use vibrissa_lab::trial::processors;
@@ -108,6 +110,42 @@ pub(super) fn parse_heading(text: &str) -> Result<f64, String> {
     let size = text.trim().trim_start_matches('-');
     let heading = parse_size(size, Dimension::ANGLE, PI, "from -180 to 180 deg, such as \"90 deg\"")?;
     Ok(if size.len() < text.trim().len() { -heading } else { heading })
+}
+
+/// The serial device of a printer behind `gcode:`.
+#[cfg(unix)]
+pub(super) fn parse_stage(text: &str) -> Result<PathBuf, String> {
+    let device = text.strip_prefix("gcode:").filter(|device| !device.is_empty());
+    device.map(PathBuf::from).ok_or_else(|| "write `gcode:` and a serial device, such as gcode:/dev/ttyUSB0".to_owned())
+}
+
+/// The speed of a stage (m/s).
+#[cfg(unix)]
+pub(super) fn parse_stage_speed(text: &str) -> Result<f64, String> {
+    let range = "from 0.1 mm/s to 1 m/s, such as \"10 mm/s\"";
+    let speed = parse_size(text, Dimension::SPEED, 1.0, range)?;
+    if speed >= 1e-4 { Ok(speed) } else { Err(format!("write a speed {range}")) }
+}
+
+/// A line of G-code.
+#[cfg(unix)]
+pub(super) fn parse_gcode(text: &str) -> Result<String, String> {
+    let line = text.trim();
+    let is_line = !line.is_empty() && line.chars().all(|c| (' '..='~').contains(&c) && !";*".contains(c));
+    if is_line {
+        Ok(line.to_owned())
+    } else {
+        Err("write one line of G-code without a comment, such as G28".to_owned())
+    }
+}
+
+/// Numbers of this count, separated by commas.
+#[cfg(unix)]
+pub(super) fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let numbers = numbers.filter(|numbers| numbers.iter().all(|number| number.abs() <= 1e4));
+    let found = numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
+    found.ok_or_else(|| format!("write {N} numbers (mm) with commas between them, such as {}", ["110"; N].join(",")))
 }
 
 /// A time of a recording (s).

@@ -277,13 +277,21 @@ fn a_plan_takes_readings_that_can_be_used_and_goes_on_after_them() {
     assert_eq!(stdout(&output), first.repeat(6));
     assert!(!std::path::Path::new(&file).exists());
 
+    // What met nothing is in the file, so a restarted plan does not say it again.
     let said = stdout(&vibrissa_reading(&continued, "missed\n"));
     let another = said.strip_prefix(&first).unwrap();
     assert!(another.starts_with("r0, touch 1;") && another != first, "{said}");
+    assert_eq!(stdout(&vibrissa(&plan)), another);
+    let output = vibrissa(&["calibrate", "--touches", &file]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("there are no touches"), "{}", stderr(&output));
 
     let said = stdout(&vibrissa_reading(&continued, "150 2\n"));
     let text = std::fs::read_to_string(&file).unwrap();
-    assert_eq!(text.lines().count(), 2, "{text}");
+    assert_eq!(text.lines().count(), 3, "{text}");
     let second = stdout(&vibrissa(&plan));
-    assert!(second.starts_with("r0, touch 2;") && said == format!("{first}{second}"), "{second}");
+    assert!(second.starts_with("r0, touch 2;") && said == format!("{another}{second}"), "{second}");
+
+    let left = stdout(&vibrissa(&[&plan[..], &["--whisker", "l0"]].concat()));
+    assert!(left.starts_with("l0, touch 1;"), "{left}");
 }

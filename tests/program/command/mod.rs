@@ -23,6 +23,8 @@ mod mismatch;
 #[cfg(target_os = "linux")]
 mod names;
 mod near_misses;
+#[cfg(unix)]
+mod printer;
 pub(crate) mod program;
 mod property;
 mod provenance;
@@ -33,6 +35,8 @@ mod run;
 mod run_recording;
 pub(crate) mod schema;
 mod services;
+#[cfg(unix)]
+mod stage;
 mod stress;
 #[cfg(feature = "sim")]
 mod sweep;

@@ -25,12 +25,12 @@ pub use count_set::CountSet;
 #[cfg(feature = "robot")]
 pub use count_set::fit_field;
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
-pub use next_touch::NextTouch;
+pub use next_touch::{MissedTouch, NextTouch};
 pub use pluck::{Pluck, PluckError};
 #[cfg(feature = "sim")]
 pub use simulated_rig::{CalibrationRigError, simulated_sets};
 pub use timed_readings::read_timed_readings;
-pub use touch_file::{read_touches, write_touches};
+pub use touch_file::{TouchFile, read_touch_file, read_touches, write_touch_file, write_touches};
 pub use touch_procedure::{Pin, TouchLimits, start_beside_pin, touch_pin};
 pub use undetermined::undetermined;
 pub use whisker_touches::{RefusedWhisker, WhiskerTouches};

@@ -2,7 +2,7 @@
 
 use vibrissa_runtime::calibration::{PlannedTouch, TouchFit, TouchNoise, TouchPlan, TouchReading};
 use vibrissa_runtime::mechanics::Obstacle;
-use vibrissa_runtime::rig::{Rig, Whisker};
+use vibrissa_runtime::rig::Whisker;
 
 use super::touch_procedure::{CLEARANCE, EXPECTED_DEVIATION, Pin, TouchLimits};
 use vibrissa_world::geometry::{Point2, Pose, rotate};
@@ -49,23 +49,6 @@ impl NextTouch {
         Some(Self { planned, in_air: body(beside), touch: body(planned.pin_base), tip_deviation, pin })
     }
 
-    /// The next touch of the first whisker of a rig that needs one, with its index. `readings` and `missed` are those of each whisker.
-    #[must_use]
-    pub fn of_rig(
-        rig: &Rig,
-        readings: &[Vec<TouchReading>],
-        missed: &[Vec<PlannedTouch>],
-        noise: &TouchNoise,
-        pin: (Pin, f64),
-        limits: &TouchLimits,
-    ) -> Option<(usize, Self)> {
-        let whiskers = rig.whiskers.iter().zip(readings).zip(missed).enumerate();
-        let mut needed = whiskers.filter_map(|(index, ((whisker, readings), missed))| {
-            Some((index, Self::of(whisker, readings, missed, noise, pin, limits)?))
-        });
-        needed.next()
-    }
-
     /// The reading (rad) of the touch, with that in the air and the standard deviation of the difference of both.
     #[must_use]
     pub fn reading(&self, base_angle: f64, in_air: f64, deviation: f64) -> TouchReading {
@@ -79,6 +62,32 @@ impl NextTouch {
             deviation,
         }
     }
+
+    /// The touch as one in which the whisker met nothing, or slipped off.
+    #[must_use]
+    pub fn missed(&self) -> MissedTouch {
+        MissedTouch { body: self.touch, pin: self.pin, side: self.planned.side }
+    }
+}
+
+/// A touch in which the whisker met nothing, or slipped off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MissedTouch {
+    /// Pose of the platform (world frame).
+    pub body: Pose,
+    /// The pin (world frame).
+    pub pin: Pin,
+    /// +1 if the pin should have bent the whisker to the left, −1 if to the right.
+    pub side: f64,
+}
+
+impl MissedTouch {
+    /// The touch in the frame of the base of this whisker. Nothing bent it.
+    #[must_use]
+    pub fn planned(&self, whisker: &Whisker) -> PlannedTouch {
+        let pin_body = Point2::from(rotate(self.pin.centre - self.body.position, -self.body.heading));
+        PlannedTouch { pin_base: whisker.base_pose().point_from_world(pin_body), side: self.side, base_angle: 0.0 }
+    }
 }
 
 #[cfg(test)]
@@ -87,6 +96,7 @@ mod tests {
 
     use vibrissa_runtime::calibration::Parameter;
     use vibrissa_runtime::mechanics::TouchMechanics;
+    use vibrissa_runtime::rig::Rig;
 
     use super::*;
 

@@ -7,6 +7,8 @@ use vibrissa_runtime::mechanics::Obstacle;
 
 use super::columns::check_columns;
 use super::contact_sets::SetsError;
+use super::next_touch::MissedTouch;
+use super::touch_procedure::Pin;
 use vibrissa_world::geometry::{Point2, Pose};
 
 /// Largest number of touches in a file.
@@ -46,9 +48,25 @@ struct Row {
     radius_mm: Option<f64>,
     normal_deg: Option<f64>,
     side: Side,
-    base_angle_urad: f64,
-    in_air_urad: f64,
-    deviation_urad: f64,
+    /// No value for a touch in which the whisker met nothing. The two others then have none either.
+    base_angle_urad: Option<f64>,
+    in_air_urad: Option<f64>,
+    deviation_urad: Option<f64>,
+}
+
+/// The touches in a file, each with the name of its whisker.
+#[derive(Debug, Clone, Default)]
+pub struct TouchFile {
+    /// Touches with their readings, in the order of time.
+    pub touches: Vec<(String, TouchReading)>,
+    /// Touches of a pin in which the whisker met nothing.
+    pub missed: Vec<(String, MissedTouch)>,
+}
+
+/// The touch of a line.
+enum Touch {
+    Read(TouchReading),
+    Missed(MissedTouch),
 }
 
 /// The touched part of the object.
@@ -69,11 +87,24 @@ enum Side {
     Right,
 }
 
-/// Reads touches from comma-separated values, each with the name of its whisker. Lines that begin with `#` are ignored.
+/// Reads touches with their readings from comma-separated values, each with the name of its whisker. Lines that begin with `#` are
+/// ignored.
+///
+/// # Errors
+/// [`SetsError`] with the first invalid line, or if there are no touches.
+pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsError> {
+    let touches = read_touch_file(bytes)?.touches;
+    if touches.is_empty() {
+        return Err(SetsError::new(1, "there are no touches; write one in each line below the header".to_owned()));
+    }
+    Ok(touches)
+}
+
+/// Reads touches as [`read_touches`] does, with those in which the whisker met nothing. There may be none.
 ///
 /// # Errors
 /// [`SetsError`] with the first invalid line.
-pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsError> {
+pub fn read_touch_file(bytes: &[u8]) -> Result<TouchFile, SetsError> {
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
     let refusal = |error: csv::Error| {
         let line = error.position().map_or(1, csv::Position::line);
@@ -81,20 +112,20 @@ pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsErr
     };
     let header = reader.headers().map_err(refusal)?.clone();
     check_columns(&header, &NEEDED, &OPTIONAL, |_| "").map_err(|reason| SetsError::new(1, reason))?;
-    let mut touches = Vec::new();
+    let mut file = TouchFile::default();
     for record in reader.records() {
         let record = record.map_err(refusal)?;
         let line = record.position().map_or(0, csv::Position::line);
-        if touches.len() == MOST {
+        if file.touches.len() + file.missed.len() == MOST {
             return Err(SetsError::new(line, format!("there are more than {MOST} touches")));
         }
         let row = record.deserialize(Some(&header)).map_err(|error| cause(&error, &header, &record));
-        touches.push(row.and_then(Row::touch).map_err(|reason| SetsError::new(line, reason))?);
+        match row.and_then(Row::touch).map_err(|reason| SetsError::new(line, reason))? {
+            (whisker, Touch::Read(touch)) => file.touches.push((whisker, touch)),
+            (whisker, Touch::Missed(touch)) => file.missed.push((whisker, touch)),
+        }
     }
-    if touches.is_empty() {
-        return Err(SetsError::new(1, "there are no touches; write one in each line below the header".to_owned()));
-    }
-    Ok(touches)
+    Ok(file)
 }
 
 /// The touches of whiskers as text that [`read_touches`] reads.
@@ -102,9 +133,22 @@ pub fn read_touches(bytes: &[u8]) -> Result<Vec<(String, TouchReading)>, SetsErr
 /// # Errors
 /// [`csv::Error`] if a value cannot be written.
 pub fn write_touches<'t>(touches: impl Iterator<Item = (&'t str, &'t TouchReading)>) -> Result<String, csv::Error> {
+    write_rows(touches.map(|(whisker, touch)| Row::of(whisker, touch)))
+}
+
+/// A file of touches as text that [`read_touch_file`] reads.
+///
+/// # Errors
+/// [`csv::Error`] if a value cannot be written.
+pub fn write_touch_file(file: &TouchFile) -> Result<String, csv::Error> {
+    let missed = file.missed.iter().map(|(whisker, touch)| Row::of_missed(whisker, touch));
+    write_rows(file.touches.iter().map(|(whisker, touch)| Row::of(whisker, touch)).chain(missed))
+}
+
+fn write_rows(rows: impl Iterator<Item = Row>) -> Result<String, csv::Error> {
     let mut writer = Writer::from_writer(Vec::new());
-    for (whisker, touch) in touches {
-        writer.serialize(Row::of(whisker, touch))?;
+    for row in rows {
+        writer.serialize(row)?;
     }
     let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
@@ -151,14 +195,23 @@ impl Row {
             radius_mm: radius.map(|radius| 1e3 * radius),
             normal_deg: normal.map(f64::to_degrees),
             side: if touch.side > 0.0 { Side::Left } else { Side::Right },
-            base_angle_urad: 1e6 * touch.base_angle,
-            in_air_urad: 1e6 * touch.in_air,
-            deviation_urad: 1e6 * touch.deviation,
+            base_angle_urad: Some(1e6 * touch.base_angle),
+            in_air_urad: Some(1e6 * touch.in_air),
+            deviation_urad: Some(1e6 * touch.deviation),
         }
     }
 
+    fn of_missed(whisker: &str, touch: &MissedTouch) -> Self {
+        let obstacle = Obstacle::Pin { centre: touch.pin.centre, radius: touch.pin.radius };
+        let nothing = [0.0; 3];
+        let [base_angle, in_air, deviation] = nothing;
+        let (body, side) = (touch.body, touch.side);
+        let read = TouchReading { body, obstacle, is_known: true, side, base_angle, in_air, deviation };
+        Self { base_angle_urad: None, in_air_urad: None, deviation_urad: None, ..Self::of(whisker, &read) }
+    }
+
     /// The touch of the line, with the name of its whisker.
-    fn touch(self) -> Result<(String, TouchReading), String> {
+    fn touch(self) -> Result<(String, Touch), String> {
         let within = |name: &str, value: f64, most: f64| {
             if value.abs() <= most { Ok(value) } else { Err(format!("`{name}` must be from -{most} to {most}")) }
         };
@@ -183,21 +236,35 @@ impl Row {
                 );
             }
         };
-        if self.deviation_urad <= 0.0 {
-            return Err("`deviation_urad` must be above 0: the standard deviation of the two mean readings".to_owned());
-        }
         let body = Pose {
             position: Point2::new(millimetres("body_x_mm", self.body_x_mm)?, millimetres("body_y_mm", self.body_y_mm)?),
             heading: degrees("heading_deg", self.heading_deg)?,
         };
-        let touch = TouchReading {
-            body,
-            obstacle,
-            is_known: !matches!(self.object, Object::UnknownFace),
-            side: if self.side == Side::Left { 1.0 } else { -1.0 },
-            base_angle: microradians("base_angle_urad", self.base_angle_urad)?,
-            in_air: microradians("in_air_urad", self.in_air_urad)?,
-            deviation: microradians("deviation_urad", self.deviation_urad)?,
+        let side = if self.side == Side::Left { 1.0 } else { -1.0 };
+        let touch = match (self.base_angle_urad, self.in_air_urad, self.deviation_urad, obstacle) {
+            (None, None, None, Obstacle::Pin { centre, radius }) if radius > 0.0 => {
+                Touch::Missed(MissedTouch { body, pin: Pin { centre, radius }, side })
+            }
+            (Some(base_angle), Some(in_air), Some(deviation), _) if deviation > 0.0 => Touch::Read(TouchReading {
+                body,
+                obstacle,
+                is_known: !matches!(self.object, Object::UnknownFace),
+                side,
+                base_angle: microradians("base_angle_urad", base_angle)?,
+                in_air: microradians("in_air_urad", in_air)?,
+                deviation: microradians("deviation_urad", deviation)?,
+            }),
+            (Some(_), Some(_), Some(_), _) => {
+                return Err(
+                    "`deviation_urad` must be above 0: the standard deviation of the two mean readings".to_owned()
+                );
+            }
+            _ => {
+                return Err(
+                    "`base_angle_urad`, `in_air_urad` and `deviation_urad` are needed; only a touch of a pin that met nothing has none of them"
+                        .to_owned(),
+                );
+            }
         };
         Ok((self.whisker, touch))
     }
@@ -222,6 +289,9 @@ mod tests {
         assert!(error("r0,0,0,0,face,1,2,,,left,1,1,0.1").contains("a face needs `normal_deg`"));
         assert!(error("r0,0,0,0,edge,1,2,3,,left,1,1,0.1").contains("an edge has neither"));
         assert!(error("r0,0,0,0,edge,1,2,,,left,1,1,0").contains("`deviation_urad` must be above 0"));
+        assert!(error("r0,0,0,0,pin,1,2,3,,left,,1,0.1").contains("only a touch of a pin that met nothing"));
+        assert!(error("r0,0,0,0,edge,1,2,,,left,,,").contains("only a touch of a pin that met nothing"));
+        assert!(error("r0,0,0,0,pin,1,2,3,,left,,,").contains("there are no touches"));
         assert!(error("r0,nan,0,0,edge,1,2,,,left,1,1,0.1").contains("`body_x_mm` must be"));
         assert!(
             error("r0,0,0,0,edge,1,2,,,middle,1,1,0.1")
@@ -282,6 +352,28 @@ mod tests {
                 _ => false,
             };
             prop_assert!(same, "{:?}", found.obstacle);
+        }
+
+        #[test]
+        fn touches_that_met_nothing_are_written_beside_the_others_and_read_again(
+            position in [-2.0..2.0_f64, -2.0..2.0_f64],
+            heading in -3.0..3.0_f64,
+            radius in 1e-4..0.1_f64,
+        ) {
+            let (body, pin) = (Pose { position: position.into(), heading }, Pin { centre: Point2::new(0.1, heading), radius });
+            let missed = MissedTouch { body, pin, side: -1.0 };
+            let obstacle = Obstacle::Pin { centre: pin.centre, radius };
+            let read = TouchReading { body, obstacle, is_known: true, side: 1.0, base_angle: 1e-4, in_air: 0.0, deviation: 1e-7 };
+            let name = "l0".to_owned();
+            let file = TouchFile { touches: vec![(name.clone(), read)], missed: vec![(name, missed); 2] };
+            let text = write_touch_file(&file).unwrap();
+            let found = read_touch_file(text.as_bytes()).unwrap();
+            prop_assert_eq!((found.touches.len(), found.missed.len()), (1, 2));
+            prop_assert_eq!(read_touches(text.as_bytes()).unwrap().len(), 1);
+            let (whisker, again) = &found.missed[1];
+            prop_assert_eq!((whisker.as_str(), again.side), ("l0", -1.0));
+            prop_assert!((again.body.position - body.position).norm() < 1e-12 && (again.body.heading - heading).abs() < 1e-12);
+            prop_assert!((again.pin.centre - pin.centre).norm() < 1e-12 && (again.pin.radius - radius).abs() < 1e-12);
         }
     }
 }

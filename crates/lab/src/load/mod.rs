@@ -22,7 +22,7 @@ pub use policy::{
 pub use recording::recording;
 pub use scenario::{
     beside, built_in_scenario, contact_sets, count_sets, drawn_scenes, family, outline_file, rig_in, scenario,
-    scenario_in, scenario_text, timed_readings, touches,
+    scenario_in, scenario_text, timed_readings, touch_file, touches,
 };
 pub use seed::{WithoutEffect, check_noise_seed};
 pub use sought::{Sought, is_scenario};

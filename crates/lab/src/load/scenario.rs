@@ -10,7 +10,9 @@ use super::sought::Sought;
 use super::text::{SIZE_LIMIT, name, read, reason, text};
 use super::{LoadError, Loaded};
 use crate::built_in::TextFile;
-use crate::calibration::{CountSet, SetsError, read_count_sets, read_sets, read_timed_readings, read_touches};
+use crate::calibration::{
+    CountSet, SetsError, TouchFile, read_count_sets, read_sets, read_timed_readings, read_touch_file, read_touches,
+};
 use crate::family::Family;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_text::file::CommandFiles;
@@ -134,6 +136,14 @@ pub fn touches(path: &Path, files: &mut CommandFiles) -> Result<Vec<(String, Tou
     sets(path, files, read_touches)
 }
 
+/// Reads measured touches as [`touches`] does, with those in which the whisker met nothing. There may be none.
+///
+/// # Errors
+/// [`LoadError`] if a file cannot be read or its text has errors.
+pub fn touch_file(path: &Path, files: &mut CommandFiles) -> Result<TouchFile, LoadError> {
+    sets(path, files, read_touch_file)
+}
+
 /// Reads times (s) and base angles (rad) of one whisker.
 ///
 /// # Errors
@@ -145,8 +155,8 @@ pub fn timed_readings(path: &Path, files: &mut CommandFiles) -> Result<Vec<(f64,
 fn sets<T>(
     path: &Path,
     files: &mut CommandFiles,
-    read_bytes: fn(&[u8]) -> Result<Vec<T>, SetsError>,
-) -> Result<Vec<T>, LoadError> {
+    read_bytes: fn(&[u8]) -> Result<T, SetsError>,
+) -> Result<T, LoadError> {
     let source = read(path, files)?;
     read_bytes(source.text.as_bytes()).map_err(|cause| LoadError::Sets { path: path.to_owned(), cause })
 }
