@@ -46,8 +46,8 @@ fn a_printer_makes_the_touches_that_are_planned() {
 
     let (motions, poses) = (motions(&printer), said(&text));
     assert_eq!(printer.executed()[..3], ["G28 X Y", "G21", "G90"]);
-    // For each touch: up, above the pose in the air, down, to the touch, back, up. The third one is begun.
-    assert_eq!(motions.len(), 2 * 6 + 3, "{motions:?}");
+    // For each touch: up, above the pose in the air, down, to the touch, back, up. The third one ends in the air with the input.
+    assert_eq!(motions.len(), 2 * 6 + 5, "{motions:?}");
     assert!(printer.executed().contains(&"G1 X10.000 Y20.000 Z25.000 F600".to_owned()), "it rises where it is");
     for (motions, poses) in motions.chunks_exact(6).zip(poses.chunks_exact(2)) {
         let at = |[x, y]: [f64; 2], z: f64| [150.0 + x, 80.0 + y, z];
@@ -86,7 +86,7 @@ fn lost_and_wrong_lines_are_sent_again() {
         assert_eq!(file.lines().count(), 2, "{fault:?}");
         // Nothing is executed twice.
         let executed = printer.executed();
-        assert_eq!(executed.iter().filter(|line| line.starts_with("G1 ")).count(), 6 + 3, "{fault:?}: {executed:?}");
+        assert_eq!(executed.iter().filter(|line| line.starts_with("G1 ")).count(), 6 + 5, "{fault:?}: {executed:?}");
     }
 }
 
