@@ -5,7 +5,7 @@ use std::iter;
 use svg::node::element::Rectangle;
 use vibrissa_runtime::math;
 
-use super::scale::Scale;
+use super::scale::{Scale, decade};
 use crate::report::style::{self, Anchor, line, px, text};
 
 /// Width and height of the picture (px).
@@ -72,7 +72,7 @@ pub(in crate::report) fn histogram(
             Anchor::Middle,
             12.0,
             style::GREY,
-            &math::powf(10.0, power).to_string(),
+            &decade(power),
         ));
     }
     let total = values.len();

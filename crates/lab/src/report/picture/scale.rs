@@ -38,6 +38,11 @@ pub(super) fn round_step(least: f64) -> f64 {
     [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|&step| step >= 0.999 * least).unwrap_or(10.0 * power)
 }
 
+/// The text of ten to a whole power. A computed power of ten can end in nines, and the nearest number to a decimal text cannot.
+pub(super) fn decade(power: f64) -> String {
+    format!("1e{power}").parse().map_or_else(|_| String::new(), |value: f64| value.to_string())
+}
+
 /// The text of a multiple of `step`, with the decimals of `step`.
 fn label(value: f64, step: f64) -> String {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
@@ -52,6 +57,11 @@ mod tests {
 
     fn ticks(values: (f64, f64), wanted: f64) -> Vec<String> {
         Scale { values, positions: (0.0, 1.0) }.ticks(wanted).into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn decades_have_no_other_digits() {
+        assert_eq!([-5.0, -1.0, 0.0, 3.0].map(decade), ["0.00001", "0.1", "1", "1000"]);
     }
 
     #[test]

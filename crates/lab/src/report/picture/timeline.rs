@@ -6,7 +6,7 @@ use std::ops::Range;
 use svg::node::element::{Group, Rectangle};
 
 use super::error_class::{COLOURS, class};
-use super::scale::{Scale, round_step};
+use super::scale::{Scale, decade, round_step};
 use crate::report::outline::Outline;
 use crate::report::shade::{Shade, shades};
 use crate::report::style::{self, Anchor, line, px, text, width_of};
@@ -233,7 +233,7 @@ fn decades(tips: &[Tip]) -> ((f64, f64), Vec<(f64, String)>) {
     let high = if greatest.is_finite() { greatest.ceil() } else { 0.0 };
     let low = least.floor().clamp(high - DECADES, high - 1.0);
     let powers = iter::successors(Some(low), |power| Some(power + 1.0)).take_while(|power| *power <= high);
-    ((low, high), powers.map(|power| (power, math::powf(10.0, power).to_string())).collect())
+    ((low, high), powers.map(|power| (power, decade(power))).collect())
 }
 
 /// Runs of ticks in the same state.
