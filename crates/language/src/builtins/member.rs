@@ -247,7 +247,7 @@ pub(crate) const MAP_EVENTS: [(&str, Takes, &str); 3] = [
     (
         "give_up",
         &[],
-        "the next target could not be touched. After three failures the map closes it, and what is near it",
+        "the target that the body went to could not be touched. After three attempts the map closes it, and what is near it",
     ),
 ];
 

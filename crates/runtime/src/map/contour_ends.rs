@@ -19,6 +19,11 @@ pub enum EndKind {
     Joined,
 }
 
+/// The piece and the end of a number of [`ContourEnds::ends`].
+pub(super) fn piece_of(number: usize) -> (usize, End) {
+    (number / 2, if number.is_multiple_of(2) { End::First } else { End::Last })
+}
+
 /// An end of a piece of contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContourEnd {
@@ -37,7 +42,7 @@ pub struct ContourEnd {
 /// Standard deviations of two points within which their surface is the same, and the least distance (m) for exact points. It
 /// is more than the distance of the stored points.
 const SAME: f64 = 3.0;
-const SAME_LEAST: f64 = 6e-3;
+pub(super) const CONTINUES: f64 = 6e-3;
 /// Longest gap (m). Parts that are farther apart are open ends.
 const LONGEST_GAP: f64 = 80e-3;
 /// Cosine of the largest angle between the contour's direction at its end and the path across a gap.
@@ -67,7 +72,7 @@ impl ContourEnds {
             return;
         }
         self.next = (self.next + 1) % ends;
-        let (piece, end) = (self.next / 2, if self.next.is_multiple_of(2) { End::First } else { End::Last });
+        let (piece, end) = piece_of(self.next);
         self.kinds[piece][end as usize] = kind(contours, piece, end);
     }
 
@@ -107,10 +112,8 @@ fn kind(contours: &Contours, index: usize, end: End) -> EndKind {
         }
         let way = point.place - at.place;
         let distance = way.norm();
-        let same = math::max(
-            SAME * f64::from(at.deviation + point.deviation),
-            math::max(SAME_LEAST, 2.0 * contours.spacing()),
-        );
+        let same =
+            math::max(SAME * f64::from(at.deviation + point.deviation), math::max(CONTINUES, 2.0 * contours.spacing()));
         let alike = f64::from(at.normal[0] * point.normal[0] + at.normal[1] * point.normal[1]);
         let is_same = distance < same && alike > ALIKE;
         let is_ahead = distance < LONGEST_GAP && way.dot(&outwards) > AHEAD * distance;

@@ -128,6 +128,15 @@ impl Contours {
         })
     }
 
+    /// The point of a piece at a path (m) before one of its ends, or the farthest one of a shorter piece.
+    pub(super) fn before(&self, piece: usize, end: End, path: f64) -> Option<&Stored> {
+        let own = self.points.iter().filter(|point| usize::from(point.piece) == piece);
+        let count = usize::try_from(self.pieces.get(piece)?.count).ok()?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a path has at most all points")]
+        let steps = ((path / self.spacing).ceil() as usize).min(count.checked_sub(1)?);
+        own.clone().nth(if end == End::First { steps } else { count - 1 - steps })
+    }
+
     /// Ends a tick without a recorded tip of a whisker.
     pub(super) fn skip(&mut self, whisker: usize) {
         if let Some(slot) = self.recordings.get_mut(whisker)

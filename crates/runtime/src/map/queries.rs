@@ -37,7 +37,8 @@ impl Map {
         self.targets.current().copied()
     }
 
-    /// Tells that the target could not be touched. After three failures it is closed, and so is what is near it.
+    /// Tells that the target to which the last route led could not be touched, or else the next one. After three attempts it is closed,
+    /// and so is what is near it. To come to the pose of a target is an attempt, too.
     pub fn fail_target(&mut self) {
         self.targets.fail(&mut self.frontier, self.cells.grid);
     }
@@ -58,6 +59,9 @@ impl Map {
     /// Sets the goal of the route, or none. The search takes some ticks, and [`route_status`](Self::route_status) tells about it. A
     /// goal that is already set changes nothing.
     pub fn seek_route(&mut self, goal: Option<Pose>) {
+        if let Some(goal) = goal {
+            self.targets.pursue(goal);
+        }
         self.route.seek(goal);
     }
 

@@ -35,7 +35,7 @@ const AHEAD: usize = 8;
 /// Cosine of the largest change of direction that counts as straight on.
 const STRAIGHT: f64 = 0.999;
 /// Distance (m) from the path to the next step at which the body has left the route. It is one stride of the search.
-const LEFT: f64 = 24e-3;
+pub(super) const LEFT: f64 = 24e-3;
 
 /// The motion of the body along the steps of a route.
 #[derive(Debug, Clone, Copy)]

@@ -2,14 +2,17 @@
 
 use crate::geometry::{Point2, Pose, Vector2, perpendicular, turn_between};
 use crate::math;
+use crate::percept::SURE_AFTER;
 use crate::rig::{Platform, Whisker};
 
 use super::cells::Cells;
 use super::clearance::{Ground, NearSurfaces};
-use super::contour_ends::{ContourEnd, ContourEnds, EndKind};
+use super::contour_ends::{CONTINUES, ContourEnd, ContourEnds, EndKind, piece_of};
 use super::contours::Contours;
 use super::frontier::Frontier;
+use super::grid::Grid;
 use super::lattice::Lattice;
+use super::route_follow::{LEFT, NEAR, NEAR_HEADING};
 use super::route_search::Pace;
 
 /// Why a place should be touched, the most urgent first. A value by area over time alone would leave an object for empty ground.
@@ -44,10 +47,12 @@ pub struct Target {
     end: Option<usize>,
 }
 
-/// Distance (m) of a straight tip before a surface from which a touch begins, and the length (m) of known contour that it touches
-/// before an end.
+/// Distance (m) of a straight tip before a surface from which a touch begins.
 const BEFORE: f64 = 8e-3;
-const OVERLAP: f64 = 12e-3;
+/// Path (m) before an end of a contour at which it is touched. The contact is then sure before the tip comes to the end.
+const OVERLAP: f64 = SURE_AFTER + CONTINUES;
+/// Path (m) by which an end may grow and still be the same target.
+const SAME_END: f64 = 12e-3;
 /// Distance (m) of the nose before unknown ground that the body will drive into, and by which a tip enters unknown ground.
 const BEFORE_UNKNOWN: f64 = 30e-3;
 const BEYOND: f64 = 10e-3;
@@ -55,8 +60,12 @@ const BEYOND: f64 = 10e-3;
 const BASE_TIME: f64 = 2.0;
 /// Factor by which the value of another target of the same kind must be larger.
 const BETTER: f64 = 1.5;
-/// Failures after which an end is closed.
+/// Attempts after which an end is closed.
 const FAILURES: u8 = 3;
+/// Cosine of the largest angle between the normals of the same end at two times.
+const SAME_NORMAL: f64 = 0.5;
+/// Most places whose attempts are remembered. The oldest is forgotten.
+const MOST_ATTEMPTS: usize = 256;
 /// Most blocks of the frontier whose poses are tried in a tick, also with a guarded nose, where a block has one pose. Then the headings for
 /// each whisker.
 const TRIED: usize = 1;
@@ -79,6 +88,28 @@ struct Candidate {
     usual_normal: f64,
 }
 
+/// The target that the body goes to. The one that should be touched next may be another one meanwhile.
+#[derive(Debug, Clone, Copy)]
+struct Pursued {
+    target: Target,
+    /// True if the body has come to its pose and not left since. The attempt is then counted.
+    is_counted: bool,
+}
+
+/// Attempts at a place of a surface.
+#[derive(Debug, Clone, Copy)]
+struct Attempts {
+    place: Point2,
+    normal: Vector2,
+    count: u8,
+}
+
+impl Attempts {
+    fn are_of(&self, target: &Target) -> bool {
+        (self.place - target.place).norm() < SAME_END && self.normal.dot(&target.normal) > SAME_NORMAL
+    }
+}
+
 /// The choice of targets.
 #[derive(Debug, Clone)]
 pub(super) struct Targets {
@@ -89,7 +120,8 @@ pub(super) struct Targets {
     /// Blocks within which a touch sees something new.
     reach: i32,
     block: f64,
-    failures: Vec<u8>,
+    /// Attempts at ends of contours.
+    attempts: Vec<Attempts>,
     /// Positions and normals where shafts have touched.
     touched: Vec<(Point2, Vector2)>,
     /// The best of this pass so far, and the target.
@@ -99,6 +131,7 @@ pub(super) struct Targets {
     is_empty: bool,
     /// True if a target has failed in this pass.
     is_disturbed: bool,
+    pursued: Option<Pursued>,
     next_end: usize,
 }
 
@@ -123,7 +156,6 @@ impl Targets {
         platform: &Platform,
         pace: Pace,
         block: f64,
-        ends: usize,
     ) -> Self {
         let mut longest = 0.0;
         let whiskers = whiskers.map(|(index, whisker)| {
@@ -148,12 +180,13 @@ impl Targets {
             pace,
             reach,
             block,
-            failures: vec![0; ends],
+            attempts: Vec::with_capacity(MOST_ATTEMPTS),
             touched: Vec::with_capacity(PLACES),
             best: None,
             current: None,
             is_empty: false,
             is_disturbed: false,
+            pursued: None,
             next_end: 0,
         }
     }
@@ -169,7 +202,7 @@ impl Targets {
     }
 
     /// Remembers a position where something was felt.
-    pub(super) fn touch(&mut self, place: Point2, normal: Vector2, frontier: &Frontier, grid: super::grid::Grid) {
+    pub(super) fn touch(&mut self, place: Point2, normal: Vector2, frontier: &Frontier, grid: Grid) {
         let is_known = self.touched.iter().any(|(known, _)| (known - place).norm() < APART);
         let is_closed = Frontier::block_at(grid, place).is_none_or(|(column, row)| frontier.is_closed(column, row));
         if !is_known && !is_closed && self.touched.len() < PLACES {
@@ -177,24 +210,65 @@ impl Targets {
         }
     }
 
-    /// Counts a failure of the target. After three an end or a place is closed.
-    pub(super) fn fail(&mut self, frontier: &mut Frontier, grid: super::grid::Grid) {
-        let Some(target) = self.current.take() else { return };
+    /// Remembers the target that the body goes to, if the goal is the pose of one.
+    pub(super) fn pursue(&mut self, goal: Pose) {
+        if self.pursued.is_none_or(|pursued| pursued.target.pose != goal) {
+            let target = self.current.filter(|target| target.pose == goal);
+            self.pursued = target.map(|target| Pursued { target, is_counted: false });
+        }
+    }
+
+    /// Gives up the target that the body went to, or else the current one, which is an attempt. After three it is closed.
+    pub(super) fn fail(&mut self, frontier: &mut Frontier, grid: Grid) {
+        let pursued = self.pursued.take();
+        let Some(target) = pursued.map(|pursued| pursued.target).or(self.current) else { return };
+        let is_other = |other: &Target| other.end != target.end || other.place != target.place;
+        self.current = self.current.filter(is_other);
         // This pass may have found it again, or may have passed over others because of it.
-        self.best = self.best.filter(|best| best.end != target.end || best.place != target.place);
+        self.best = self.best.filter(is_other);
         self.is_disturbed = true;
-        if let Some(end) = target.end {
-            self.failures[end] = self.failures[end].saturating_add(1);
-            return;
+        if pursued.is_none_or(|pursued| !pursued.is_counted) {
+            self.count_attempt(&target, frontier, grid);
         }
-        if let Some(block) = Frontier::block_at(grid, target.place) {
-            frontier.fail(block);
+        if target.end.is_none() {
+            self.touched.retain(|(place, _)| (place - target.place).norm() > APART);
         }
-        self.touched.retain(|(place, _)| (place - target.place).norm() > APART);
+    }
+
+    /// Counts an attempt when the body comes to the pose of the target that it goes to. A target that is still one afterwards, and is
+    /// chosen again and again, shows nothing new.
+    fn arrive(&mut self, body: Pose, frontier: &mut Frontier, grid: Grid) {
+        let Some(Pursued { target, is_counted }) = self.pursued else { return };
+        let distance = (target.pose.position - body.position).norm();
+        if is_counted && distance > LEFT {
+            self.pursued = Some(Pursued { target, is_counted: false });
+        } else if !is_counted
+            && distance < NEAR
+            && turn_between(body.heading, target.pose.heading).abs() < NEAR_HEADING
+        {
+            self.pursued = Some(Pursued { target, is_counted: true });
+            self.count_attempt(&target, frontier, grid);
+        }
+    }
+
+    fn count_attempt(&mut self, target: &Target, frontier: &mut Frontier, grid: Grid) {
+        if target.end.is_none() {
+            if let Some(block) = Frontier::block_at(grid, target.place) {
+                frontier.fail(block);
+            }
+        } else if let Some(known) = self.attempts.iter_mut().find(|attempts| attempts.are_of(target)) {
+            known.count = known.count.saturating_add(1);
+        } else {
+            if self.attempts.len() == MOST_ATTEMPTS {
+                self.attempts.remove(0);
+            }
+            self.attempts.push(Attempts { place: target.place, normal: target.normal, count: 1 });
+        }
     }
 
     /// Continues the pass through all possible targets.
     pub(super) fn update(&mut self, known: Known<'_>, frontier: &mut Frontier) {
+        self.arrive(known.body, frontier, known.cells.grid);
         self.value_ends(known, frontier);
         let most = if self.pace.has_guarded_nose { TRIED_AHEAD } else { TRIED };
         let mut tried = 0;
@@ -246,11 +320,18 @@ impl Targets {
             (TargetKind::Frontier, _) => Frontier::block_at(known.cells.grid, target.place)
                 .is_some_and(|(column, row)| frontier.is_frontier(column, row)),
             (TargetKind::Untraced, _) => self.touched.iter().any(|(place, _)| (place - target.place).norm() < APART),
-            (_, Some(end)) => known.ends.ends(known.contours).any(|(number, found)| {
-                number == end && found.kind != EndKind::Joined && (found.place - target.place).norm() < OVERLAP
-            }),
+            (_, Some(end)) => {
+                known.ends.ends(known.contours).any(|(number, found)| {
+                    number == end && found.kind != EndKind::Joined && (found.place - target.place).norm() < SAME_END
+                }) && self.is_open(target)
+            }
             (_, None) => false,
         }
+    }
+
+    /// True if the place of an end was not tried too often.
+    fn is_open(&self, target: &Target) -> bool {
+        !self.attempts.iter().any(|attempts| attempts.count >= FAILURES && attempts.are_of(target))
     }
 
     /// Values some ends of contours.
@@ -258,9 +339,10 @@ impl Targets {
         let (mut count, mut best) = (0, self.best.take());
         for (number, end) in known.ends.ends(known.contours).skip(self.next_end).take(ENDS) {
             count += 1;
-            let is_open =
-                end.kind != EndKind::Joined && self.failures.get(number).is_some_and(|count| *count < FAILURES);
-            if is_open && let Some(target) = self.following(known, frontier, number, &end) {
+            if end.kind != EndKind::Joined
+                && let Some(target) = self.following(known, frontier, number, &end)
+                && self.is_open(&target)
+            {
                 best = Some(better(best, target));
             }
         }
@@ -268,10 +350,13 @@ impl Targets {
         self.best = best;
     }
 
-    /// Values the positions where shafts have touched, and forgets those that a contour has reached.
+    /// Values the positions where shafts have touched, and forgets those that a contour has reached or that are closed.
     fn value_touched(&mut self, known: Known<'_>, frontier: &Frontier) {
-        self.touched
-            .retain(|(place, _)| !known.contours.points().iter().any(|point| (point.place - place).norm() < APART));
+        self.touched.retain(|(place, _)| {
+            let is_closed = Frontier::block_at(known.cells.grid, *place)
+                .is_none_or(|(column, row)| frontier.is_closed(column, row));
+            !is_closed && !known.contours.points().iter().any(|point| (point.place - place).norm() < APART)
+        });
         for index in 0..self.touched.len() {
             let (place, normal) = self.touched[index];
             let target = self.whiskers.iter().filter(|whisker| whisker.is_beside).filter_map(|whisker| {
@@ -286,10 +371,12 @@ impl Targets {
         let kind = if end.kind == EndKind::Open { TargetKind::OpenEnd } else { TargetKind::Gap };
         // The body goes along the contour with the surface on one side.
         let side = -perpendicular(end.outwards).dot(&end.normal).signum();
-        let touched = end.place - OVERLAP * end.outwards;
+        let (piece, at) = piece_of(number);
+        let known_point = known.contours.before(piece, at, OVERLAP)?;
+        let normal = Vector2::new(f64::from(known_point.normal[0]), f64::from(known_point.normal[1]));
         let whiskers = self.whiskers.iter().filter(|whisker| whisker.is_beside && whisker.side * side > 0.0);
         let target = whiskers
-            .filter_map(|whisker| self.touching(known, frontier, whisker, kind, (end.place, end.normal), touched))
+            .filter_map(|whisker| self.touching(known, frontier, whisker, kind, (end.place, normal), known_point.place))
             .max_by(|a, b| a.value.total_cmp(&b.value))?;
         Some(Target { end: Some(number), ..target })
     }
@@ -312,7 +399,7 @@ impl Targets {
     }
 
     /// Unknown area (m²) that a whisker at a place would see, at least that of a block.
-    fn seen(&self, frontier: &Frontier, grid: super::grid::Grid, place: Point2) -> f64 {
+    fn seen(&self, frontier: &Frontier, grid: Grid, place: Point2) -> f64 {
         let blocks = Frontier::block_at(grid, place).map_or(0, |block| frontier.unknown_around(block, self.reach));
         math::max(f64::from(blocks), 1.0) * math::square(self.block)
     }

@@ -10,7 +10,7 @@ use crate::signal::{Command, MAX_WHISKERS};
 use super::cells::Cells;
 use super::clearance::{self, NearSurfaces};
 use super::contour_ends::ContourEnds;
-use super::contours::{Contours, MOST_PIECES};
+use super::contours::Contours;
 use super::frontier::{BLOCK, Frontier};
 use super::grid::Grid;
 use super::lattice::Lattice;
@@ -108,7 +108,7 @@ impl Map {
         Ok(Self {
             settings,
             frontier: Frontier::new(grid),
-            targets: Targets::new(targets, platform, settings.pace, block, 2 * MOST_PIECES),
+            targets: Targets::new(targets, platform, settings.pace, block),
             route: Route::new(Lattice::new(grid, clear_outline, outline_body), settings.pace),
             cells: Cells::new(grid),
             near: NearSurfaces::new(grid, longest),

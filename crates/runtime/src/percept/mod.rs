@@ -43,5 +43,6 @@ pub use low_pass::{CutoffError, LowPass};
 pub(crate) use offsets::TOLERATED as TOLERATED_OFFSET;
 pub use perception::{Perception, PerceptionError};
 pub use pose_delay::Misfit;
+pub(crate) use shaft_rest::SURE_AFTER;
 pub use tip_curve::{TipCurve, TipCurveError};
 pub use tip_table::{TipPosition, TipTable};

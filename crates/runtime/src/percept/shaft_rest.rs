@@ -90,6 +90,9 @@ const PROVEN: usize = 8;
 const FADING: f64 = 12e-3;
 /// Possible error (m) of the tip of a shaft that lies along the surface.
 const FLAT: f64 = 5e-3;
+/// Path (m) of a tip after which it may be recorded, whatever may have touched before. The possible error has then decreased from
+/// [`FLAT`] to the largest one of a recorded tip.
+pub(crate) const SURE_AFTER: f64 = 38.7e-3;
 
 impl ShaftRest {
     /// Creates the detection for `whisker`. `angle_deviation` (rad) is the standard deviation of a base angle.
@@ -275,6 +278,7 @@ mod tests {
 
     use proptest::prelude::*;
 
+    use super::super::sliding::MAX_POSSIBLE_ERROR;
     use super::*;
     use crate::mechanics::Elastica;
     use crate::rig::Rig;
@@ -326,6 +330,12 @@ mod tests {
                 prop_assert!(rest.possible_error() < 1e-4, "{} m", rest.possible_error());
             }
         }
+    }
+
+    #[test]
+    fn a_tip_is_sure_after_the_path_on_which_the_largest_possible_error_fades() {
+        let left = |path: f64| FLAT * (-path / FADING).exp();
+        assert!(left(SURE_AFTER) < MAX_POSSIBLE_ERROR && left(SURE_AFTER - 1e-3) > MAX_POSSIBLE_ERROR);
     }
 
     #[test]

@@ -97,7 +97,7 @@ const OFF_EDGE: (f64, f64) = (1e-4, 0.05);
 /// Distance (m, standard deviation) from that position at which a bent whisker comes to rest.
 const LANDED_WITHIN: f64 = 0.02;
 /// Largest possible error of the tip (m) at which its position is recorded.
-const MAX_POSSIBLE_ERROR: f64 = 0.2e-3;
+pub(super) const MAX_POSSIBLE_ERROR: f64 = 0.2e-3;
 /// Innovations beyond this many standard deviations are inconsistent with sliding.
 const GATE: f64 = 4.0;
 /// Standard deviation (rad) of the surface direction below which a misfit is linear in a delay of poses.

@@ -64,26 +64,65 @@ fn a_wall_becomes_a_contour_with_two_open_ends_and_blocked_ground_behind() {
     assert_eq!(map.at(Point2::new(0.2, -0.15)), Cell::Unknown);
 }
 
+/// Where a body stands beside the wall of these tests.
+const BESIDE: Pose = Pose { position: Point2::new(0.4, 0.0), heading: 0.0 };
+
+/// A body that stands still until the targets are chosen again.
+fn stand(map: &mut Map, rig: &Rig, body: Pose) {
+    let mut perception = told(rig);
+    for tick in 0..60 {
+        let sample = Sample { time: 8.0 + f64::from(tick) / 30.0, body, whiskers: [Reading::default(); MAX_WHISKERS] };
+        perception.update(&[sample]);
+        map.update(&perception, perception.pose(), Command::STOP);
+    }
+}
+
+#[test]
+fn a_target_to_which_the_body_comes_three_times_is_closed() {
+    let rig = Rig::default();
+    let mut map = map(&rig, MapSettings { extent: 2.0, ..MapSettings::default() });
+    follow(&mut map, &rig, 240, |x| (0.1..0.3).contains(&x).then(|| Point2::new(x + AHEAD, -0.1)));
+    stand(&mut map, &rig, BESIDE);
+    let first = map.next_target().unwrap();
+    for visit in 0..3 {
+        let target = map.next_target().unwrap();
+        assert!((target.place - first.place).norm() < 1e-9, "visit {visit}: {target:?}");
+        map.seek_route(Some(target.pose));
+        stand(&mut map, &rig, target.pose);
+        stand(&mut map, &rig, BESIDE);
+    }
+    assert!((map.next_target().unwrap().place - first.place).norm() > 0.1);
+}
+
+#[test]
+fn giving_up_counts_for_the_target_that_the_body_goes_to() {
+    let rig = Rig::default();
+    let mut map = map(&rig, MapSettings { extent: 2.0, ..MapSettings::default() });
+    follow(&mut map, &rig, 240, |x| (0.1..0.3).contains(&x).then(|| Point2::new(x + AHEAD, -0.1)));
+    stand(&mut map, &rig, BESIDE);
+    let sought = map.next_target().unwrap();
+    for _ in 0..3 {
+        map.seek_route(Some(sought.pose));
+        // Meanwhile another one is nearer.
+        stand(&mut map, &rig, Pose { position: Point2::new(0.0, 0.0), heading: std::f64::consts::PI });
+        let nearer = map.next_target().unwrap();
+        assert!((nearer.place - sought.place).norm() > 0.1, "{nearer:?}");
+        map.fail_target();
+        stand(&mut map, &rig, BESIDE);
+    }
+    let left = map.next_target().unwrap();
+    assert_eq!((left.kind, (left.place - sought.place).norm() > 0.1), (TargetKind::OpenEnd, true));
+}
+
 #[test]
 fn the_ends_of_a_wall_are_the_first_targets_and_close_after_three_failures() {
     let rig = Rig::default();
     let mut map = map(&rig, MapSettings { extent: 2.0, ..MapSettings::default() });
     let along_the_wall = |x: f64| (0.1..0.3).contains(&x).then(|| Point2::new(x + AHEAD, -0.1));
     follow(&mut map, &rig, 240, along_the_wall);
-    // A body that stands still until the targets are chosen again.
-    let stand = |map: &mut Map| {
-        let mut perception = told(&rig);
-        for tick in 0..60 {
-            let body = Pose { position: Point2::new(0.4, 0.0), heading: 0.0 };
-            let sample =
-                Sample { time: 8.0 + f64::from(tick) / 30.0, body, whiskers: [Reading::default(); MAX_WHISKERS] };
-            perception.update(&[sample]);
-            map.update(&perception, perception.pose(), Command::STOP);
-        }
-    };
     let mut seen = Vec::new();
     for _ in 0..7 {
-        stand(&mut map);
+        stand(&mut map, &rig, BESIDE);
         let target = map.next_target().unwrap();
         if target.kind == TargetKind::OpenEnd {
             // Only the right whisker goes on to the right of the wall's far end, with the body parallel to the wall.
@@ -91,11 +130,12 @@ fn the_ends_of_a_wall_are_the_first_targets_and_close_after_three_failures() {
             assert_eq!(target.whisker, usize::from(!is_far), "{target:?}");
             let heading: f64 = if is_far { 0.0 } else { std::f64::consts::PI };
             assert!((target.pose.heading - heading).sin().abs() < 1e-2 && (target.pose.heading - heading).cos() > 0.9);
-            // The straight tip is before the surface, on known contour.
+            // The straight tip is before the surface, on known contour, and so far before its end that the contact is sure there.
             let mount = &rig.whiskers[target.whisker];
             let tip = mount.base_pose().point_to_world(Point2::new(mount.shaft.length, 0.0));
             let tip = target.pose.point_to_world(tip);
-            assert!((tip - target.place).norm() < 0.02 && tip.y > target.place.y + 5e-3, "{tip}");
+            let before_end = (tip.x - target.place.x).abs();
+            assert!((0.038..0.05).contains(&before_end) && tip.y > target.place.y + 5e-3, "{tip}");
         }
         seen.push((target.kind, target.place.x > 0.2));
         map.fail_target();
