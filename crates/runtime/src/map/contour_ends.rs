@@ -49,6 +49,8 @@ const LONGEST_GAP: f64 = 80e-3;
 const AHEAD: f64 = 0.5;
 /// Cosine of the largest angle between the normals of points of one surface. The other side of a plate is another surface.
 const ALIKE: f64 = -0.2;
+/// Sine of the smallest angle between two surfaces that meet at a corner.
+const CORNER: f64 = 0.35;
 /// Length (m) of its own piece before an end that is not a part beyond it.
 const OWN: f64 = 40e-3;
 
@@ -121,6 +123,9 @@ fn kind(contours: &Contours, index: usize, end: End) -> EndKind {
             nearest = Some((distance, point.place, is_same));
         }
     }
+    if is_at_corner(contours, at, outwards) {
+        return EndKind::Joined;
+    }
     match nearest {
         None => EndKind::Open,
         Some((.., true)) => EndKind::Joined,
@@ -128,8 +133,31 @@ fn kind(contours: &Contours, index: usize, end: End) -> EndKind {
     }
 }
 
+/// True if an end is at a corner to which another piece leads. What that piece lacks up to the corner is its own gap.
+fn is_at_corner(contours: &Contours, at: Stored, outwards: Vector2) -> bool {
+    let normal_of = |stored: &Stored| Vector2::new(f64::from(stored.normal[0]), f64::from(stored.normal[1]));
+    contours.pieces().iter().filter(|piece| piece.count > 1).any(|piece| {
+        piece.ends.iter().zip(piece.outwards).any(|(other, others)| {
+            let sine = outwards.perp(&others);
+            if sine.abs() < CORNER {
+                return false;
+            }
+            // The lines of both meet at these distances from the two ends.
+            let way = other.place - at.place;
+            let (distance, from_other) = (way.perp(&others) / sine, way.perp(&outwards) / sine);
+            let is_outer = normal_of(&at).dot(&others) > 0.0;
+            distance.abs() < CONTINUES
+                && from_other > -CONTINUES
+                && from_other < LONGEST_GAP
+                && is_outer == (normal_of(other).dot(&outwards) > 0.0)
+        })
+    })
+}
+
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use proptest::prelude::*;
 
     use super::*;
@@ -184,6 +212,47 @@ mod tests {
             arc(&mut contours, radius, split + 0.003 / radius, 3.0);
             let found = kinds(&contours);
             prop_assert_eq!(found.iter().filter(|kind| **kind == EndKind::Joined).count(), 2);
+        }
+    }
+
+    /// Records a straight piece between two places, felt from a side.
+    fn straight(contours: &mut Contours, from: Point2, to: Point2, side: Vector2) {
+        for step in 0..=400 {
+            let place = from + f64::from(step) / 400.0 * (to - from);
+            contours.record(0, place, 1e-4, place + 0.05 * side);
+        }
+        for _ in 0..20 {
+            contours.skip(0);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        /// The corner is the origin. The first piece ends near it, and the second one begins behind it.
+        #[test]
+        fn an_end_at_a_corner_is_joined_with_the_piece_behind_it(
+            turn in 0.5..2.5_f64, is_outer: bool, before in 0.0..5e-3_f64, behind in 9e-3..60e-3_f64,
+        ) {
+            let mut contours = Contours::new(1);
+            let (way, normal) = (unit(0.0), unit(FRAC_PI_2));
+            // An outer corner turns away from the free side.
+            let angle = if is_outer { -turn } else { turn };
+            straight(&mut contours, Point2::from(-0.3 * way), Point2::from(-before * way), normal);
+            straight(&mut contours, Point2::from(behind * unit(angle)), Point2::from(0.3 * unit(angle)), unit(angle + FRAC_PI_2));
+            let found = kinds(&contours);
+            prop_assert_eq!(found[1], EndKind::Joined);
+            prop_assert!(found[2] != EndKind::Joined, "what the second piece lacks has to be traced");
+            prop_assert!(found[0] == EndKind::Open && found[3] == EndKind::Open);
+        }
+
+        /// Two pieces whose lines meet, but of which one faces the other way, are not one surface.
+        #[test]
+        fn a_piece_that_faces_the_other_way_joins_no_corner(turn in 0.5..2.5_f64, behind in 9e-3..60e-3_f64) {
+            let mut contours = Contours::new(1);
+            straight(&mut contours, Point2::new(-0.3, 0.0), Point2::new(-2e-3, 0.0), unit(FRAC_PI_2));
+            straight(&mut contours, Point2::from(behind * unit(-turn)), Point2::from(0.3 * unit(-turn)), -unit(-turn + FRAC_PI_2));
+            prop_assert!(kinds(&contours)[1] != EndKind::Joined);
         }
     }
 
