@@ -113,6 +113,7 @@ impl Senses for Script {
             WhiskerScalar::ContourCurvature => 3.0,
             WhiskerScalar::TipDeviation => 0.002,
             WhiskerScalar::BaseAngleDeviation => 4e-7,
+            WhiskerScalar::RecordedDeviation => 3e-5,
             WhiskerScalar::Fitted => 1.0,
         }
     }

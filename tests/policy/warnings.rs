@@ -193,6 +193,7 @@ impl Senses for Told {
             WhiskerScalar::Yaw => "yaw",
             WhiskerScalar::TipDeviation => "tip_deviation",
             WhiskerScalar::BaseAngleDeviation => "base_angle_deviation",
+            WhiskerScalar::RecordedDeviation => "recorded_deviation",
             WhiskerScalar::Fitted => "fitted",
         };
         self.get(&format!("{}.{name}", ["r", "l"][whisker]))

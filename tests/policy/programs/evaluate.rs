@@ -228,6 +228,7 @@ impl Interpreter<'_> {
             "length" => scalar(WhiskerScalar::Length),
             "tip_deviation" => scalar(WhiskerScalar::TipDeviation),
             "base_angle_deviation" => scalar(WhiskerScalar::BaseAngleDeviation),
+            "recorded_deviation" => scalar(WhiskerScalar::RecordedDeviation),
             "loop_closed" => Value::Truth(self.senses.loop_closed(whisker, values[0], values[1])),
             "ready" => truth(WhiskerScalar::ContourReady),
             "tip" => vector(WhiskerVector::Tip),

@@ -95,7 +95,8 @@ impl Senses for Felt {
             WhiskerScalar::Sense
             | WhiskerScalar::ContourCurvature
             | WhiskerScalar::TipDeviation
-            | WhiskerScalar::BaseAngleDeviation => 0.0,
+            | WhiskerScalar::BaseAngleDeviation
+            | WhiskerScalar::RecordedDeviation => 0.0,
         }
     }
 

@@ -158,6 +158,7 @@ impl<'m> Region<'m> {
             | WhiskerScalar::Length
             | WhiskerScalar::TipDeviation
             | WhiskerScalar::BaseAngleDeviation
+            | WhiskerScalar::RecordedDeviation
             | WhiskerScalar::Fitted => self.narrow(Unknown::Whisker(whisker, quantity), to),
             WhiskerScalar::ContourCurvature => {
                 // Only a contour can give a number.

@@ -76,9 +76,10 @@ impl Domain {
             Unknown::Body(BodyScalar::Length | BodyScalar::Width) | Unknown::Whisker(_, WhiskerScalar::Length) => {
                 range(f64::MIN_POSITIVE, DISTANCE_LIMIT)
             }
-            Unknown::Whisker(_, WhiskerScalar::TipDeviation | WhiskerScalar::BaseAngleDeviation) => {
-                range(0.0, f64::INFINITY)
-            }
+            Unknown::Whisker(
+                _,
+                WhiskerScalar::TipDeviation | WhiskerScalar::BaseAngleDeviation | WhiskerScalar::RecordedDeviation,
+            ) => range(0.0, f64::INFINITY),
             Unknown::Body(BodyScalar::NoseReach)
             | Unknown::BodyPosition(_)
             | Unknown::Whisker(..)
@@ -214,6 +215,7 @@ pub(super) fn scalar(source: &mut impl Source, whisker: usize, quantity: Whisker
         | WhiskerScalar::Length
         | WhiskerScalar::TipDeviation
         | WhiskerScalar::BaseAngleDeviation
+        | WhiskerScalar::RecordedDeviation
         | WhiskerScalar::Fitted => source.range(Unknown::Whisker(whisker, quantity)),
     }
 }

@@ -124,6 +124,8 @@ members! {
             "the displacement of the tip from the base: x along the undeflected shaft, y to its left";
         "tip_deviation" Type::LENGTH => Scalar(WhiskerScalar::TipDeviation),
             "standard deviation of `tip` as the contact estimator reports it. It is infinite beyond its range";
+        "recorded_deviation" Type::LENGTH => Scalar(WhiskerScalar::RecordedDeviation),
+            "standard deviation from the surface with which `record` records the tip. Other than `tip_deviation`, it contains what the estimator does not know: a whisker that came to rest without having been free may be caught";
         "base" Type::Position => Vector(WhiskerVector::Base), "the position of the base";
         "fitted" Type::Bool => Scalar(WhiskerScalar::Fitted),
             "true if the rig has the whisker. Only whiskers that are bound `if fitted` may be missing";

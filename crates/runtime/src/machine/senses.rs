@@ -188,6 +188,8 @@ pub enum WhiskerScalar {
     Fitted,
     /// Standard deviation of the filtered base angle (rad).
     BaseAngleDeviation,
+    /// Standard deviation from the outline with which the tip is recorded (m).
+    RecordedDeviation,
 }
 
 impl WhiskerScalar {

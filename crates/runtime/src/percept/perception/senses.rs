@@ -48,6 +48,7 @@ impl Senses for Perception {
             WhiskerScalar::TipDeviation => whisker().tip_deviation(),
             WhiskerScalar::Fitted => truth(self.in_sample[index].is_some()),
             WhiskerScalar::BaseAngleDeviation => whisker().base_angle_deviation(),
+            WhiskerScalar::RecordedDeviation => whisker().recorded_deviation(),
         }
     }
 
