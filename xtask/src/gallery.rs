@@ -97,10 +97,7 @@ mod tests {
         shown.sort_unstable();
         made.sort_unstable();
         assert_eq!(shown, made);
-        // Each leads to the whole picture, and is described for readers who do not see it.
-        for name in made {
-            assert_eq!(page.matches(&format!("<a href=\"gallery/{name}.svg\">")).count(), 1, "{name}");
-        }
+        // Each has a name for readers who do not see it.
         assert_eq!(page.matches("<img ").count(), page.matches(" alt=\"").count());
     }
 
