@@ -82,10 +82,10 @@
 //! | `sim` | yes | the MuJoCo simulator. It needs MuJoCo's library, which `cargo x setup` installs into a checkout |
 //! | `recording` | yes | recordings of runs as MCAP files, and their replay |
 //! | `live` | yes | a page that shows a run while it happens |
-//! | `lsp` | no | the command `vibrissa lsp`, a language server for editors |
-//! | `render` | no | `run --video`, videos of runs. It needs EGL |
+//! | `render` | yes | `run --video`, videos of runs. A video needs EGL and a driver |
+//! | `lsp` | yes | the command `vibrissa lsp`, a language server for editors |
 //! | `viewer` | no | `run --view`, MuJoCo's window during a run |
-//! | `outlines` | no | outlines from SVG, DXF, CSV and STL files |
+//! | `outlines` | yes | outlines from SVG, DXF, CSV and STL files |
 //! | `standard-library` | no | the standard library of policies, which only the command has by itself |
 //!
 //! Without `sim`, everything except the MuJoCo simulator works. No library is necessary then.

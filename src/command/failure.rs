@@ -26,7 +26,7 @@ use vibrissa_lab::trial::{ExecuteError, StartError, Trial, TrialFault};
 use vibrissa_lab::tune::{AxisError, CandidateError};
 use vibrissa_language::chart::UnknownState;
 #[cfg(feature = "viewer")]
-use vibrissa_mujoco::WindowError;
+use vibrissa_mujoco::visual::WindowError;
 use vibrissa_robot::recording::{KeepError, WriteError};
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::{ArtifactError, SetError};
@@ -227,8 +227,20 @@ pub(super) enum Failure {
     #[error("{argument} is for one run, and there are {scenarios} scenarios; give one scenario")]
     OneRun { argument: &'static str, scenarios: usize },
     #[cfg(feature = "render")]
-    #[error("--video: {0}")]
-    Video(#[from] VideoError),
+    #[error("--video, {}: {cause}", path.display())]
+    Video { path: PathBuf, cause: VideoError },
+    #[cfg(feature = "render")]
+    #[error(
+        "--video {format} names each video after its scenario, in the folder of --out; add --out DIR, or name a file such as run.{format}"
+    )]
+    NoVideoFolder { format: &'static str },
+    #[cfg(feature = "render")]
+    #[error(
+        "--video {} is one file, and there are {scenarios} scenarios; write --video {format} --out DIR for a video of each, or give one \
+         scenario",
+        path.display()
+    )]
+    OneVideo { path: PathBuf, format: &'static str, scenarios: usize },
     #[cfg(feature = "viewer")]
     #[error("--view: {0}")]
     Window(#[from] WindowError),

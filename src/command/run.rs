@@ -100,12 +100,17 @@ pub(super) fn run(arguments: &RunArguments) -> Result<Exit, Failure> {
     let mut reports = Reports::new(trials, arguments.out.as_deref(), &mut files)?;
     let provenance = of_trials(prepared.iter().map(|prepared| &prepared.trial));
     let mut ticks = TickFile::new(arguments, &mut files)?;
-    let mut outputs = RunOutputs::new(arguments, &mut files)?;
+    let mut outputs = RunOutputs::new(arguments, &prepared, &mut files)?;
     let (mut exit, mut written) = (Exit::Done, Ok(()));
     for (index, prepared) in prepared.iter().enumerate() {
         let trial = &prepared.trial;
         let (finished, of_run) = outputs.run(prepared)?;
-        written = written.and(of_run);
+        // Every output that failed is told, the last one at the end of the command.
+        if let Err(failure) = of_run
+            && let Err(before) = std::mem::replace(&mut written, Err(failure))
+        {
+            before.report();
+        }
         reports.add(&provenance, index, trial, &finished)?;
         if !finished.violations.is_empty() {
             exit = Exit::Unexpected;

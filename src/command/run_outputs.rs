@@ -1,7 +1,7 @@
 //! The outputs that watch a run: its recording, its video, its window and its page.
 
 #[cfg(feature = "render")]
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[cfg(any(feature = "render", feature = "viewer"))]
 use clap::Args;
@@ -12,6 +12,8 @@ use super::failure::Failure;
 #[cfg(feature = "live")]
 use super::live::{REAL_TIME, begin, serve_on};
 use super::run::{Prepared, RunArguments};
+#[cfg(feature = "render")]
+use super::trials::extended;
 use super::trials::run_with_bar;
 #[cfg(feature = "render")]
 use super::values::{parse_picture_size, parse_video_rate, parse_video_speed};
@@ -20,7 +22,7 @@ use crate::live::{Live, LiveWatcher, RunSetup};
 #[cfg(feature = "viewer")]
 use crate::video::RunWindow;
 #[cfg(feature = "render")]
-use crate::video::{Film, Format, Settings, Studio};
+use crate::video::{Film, Format, Settings, Studio, VideoError};
 #[cfg(feature = "recording")]
 use vibrissa_lab::recording::Recorder;
 #[cfg(feature = "render")]
@@ -29,16 +31,15 @@ use vibrissa_lab::trial::TrialResult;
 use vibrissa_text::file::CommandFiles;
 #[cfg(any(feature = "recording", feature = "render"))]
 use vibrissa_text::file::Output;
-#[cfg(feature = "render")]
-use vibrissa_world::scene::Scene;
 
 /// The options of the video and of the window.
 #[cfg(any(feature = "render", feature = "viewer"))]
 #[derive(Debug, Args)]
 pub(super) struct VideoOptions {
-    /// Write a video of the run into this file, a .gif or an .mp4. An .mp4 needs ffmpeg. With one scenario
+    /// Write a video of the run into this file, a .gif or an .mp4. With `gif` or `mp4` alone, a video of every run is written into the
+    /// directory of `--out`. An .mp4 needs ffmpeg
     #[cfg(feature = "render")]
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["watch", "transitions"])]
+    #[arg(long, value_name = "FILE|gif|mp4", conflicts_with_all = ["watch", "transitions"])]
     video: Option<PathBuf>,
     /// Width and height of the video in pixels, even numbers from 64 to 4096
     #[cfg(feature = "render")]
@@ -59,37 +60,44 @@ pub(super) struct VideoOptions {
     view: bool,
 }
 
-/// The outputs that watch runs. All but the page are for one run only.
+/// The outputs that watch runs. The recording and the window are for one run only.
 pub(super) struct RunOutputs {
     #[cfg(feature = "recording")]
     record: Option<Output>,
     #[cfg(feature = "render")]
-    video: Option<VideoOutput>,
+    video: Option<VideoOutputs>,
     #[cfg(feature = "viewer")]
     view: bool,
     #[cfg(feature = "live")]
     live: Option<Live>,
 }
 
+/// The videos of the runs.
 #[cfg(feature = "render")]
-struct VideoOutput {
-    file: Output,
+struct VideoOutputs {
     format: Format,
     settings: Settings,
+    /// The files of the runs that are still to come.
+    files: std::vec::IntoIter<Output>,
 }
 
 impl RunOutputs {
-    /// The first argument of an output that is for one run. `None` if there is none.
+    /// The first argument of an output of a whole run. `None` if there is none.
     pub(super) fn first_given(arguments: &RunArguments) -> Option<&'static str> {
-        given(arguments).find_map(|(argument, is_given)| is_given.then_some(argument))
+        given(arguments).find_map(|(argument, is_given, _)| is_given.then_some(argument))
     }
 
-    /// Requests the files, and begins to serve the page.
-    pub(super) fn new(arguments: &RunArguments, files: &mut CommandFiles) -> Result<Self, Failure> {
-        if let Some(argument) = Self::first_given(arguments)
-            && arguments.scenarios.len() > 1
+    /// Requests the files for these runs, and begins to serve the page.
+    pub(super) fn new(
+        arguments: &RunArguments,
+        prepared: &[Prepared],
+        files: &mut CommandFiles,
+    ) -> Result<Self, Failure> {
+        let scenarios = prepared.len();
+        if let Some((argument, ..)) = given(arguments).find(|&(_, is_given, is_of_one)| is_given && is_of_one)
+            && scenarios > 1
         {
-            return Err(Failure::OneRun { argument, scenarios: arguments.scenarios.len() });
+            return Err(Failure::OneRun { argument, scenarios });
         }
         #[cfg(not(any(feature = "recording", feature = "render")))]
         let _ = files;
@@ -97,7 +105,7 @@ impl RunOutputs {
             #[cfg(feature = "recording")]
             record: arguments.record.as_ref().map(|path| files.output("--record", path)).transpose()?,
             #[cfg(feature = "render")]
-            video: VideoOutput::new(&arguments.video, files)?,
+            video: VideoOutputs::new(arguments, prepared, files)?,
             #[cfg(feature = "viewer")]
             view: arguments.video.view,
             #[cfg(feature = "live")]
@@ -115,7 +123,7 @@ impl RunOutputs {
         let trial = &prepared.trial;
         // Missing programs and drivers are reported before the run.
         #[cfg(feature = "render")]
-        let (video, film) = self.video.take().map(|video| video.studio(&trial.scene)).transpose()?.unzip();
+        let (video, film) = self.video.as_mut().and_then(|videos| videos.next(trial)).transpose()?.unzip();
         #[cfg(not(feature = "render"))]
         let film = ();
         #[cfg(feature = "recording")]
@@ -179,7 +187,8 @@ fn write_video(video: Option<((Output, Studio), Film)>, trial: &Trial, finished:
     };
     let content = studio.develop(&trial.scene, &film, &finished.run.trace, progress);
     bar.finish_and_clear();
-    Ok(file.write(content?)?)
+    let content = content.map_err(of_video(file.path()))?;
+    Ok(file.write(content)?)
 }
 
 /// The watcher that shows a trial on a page.
@@ -188,36 +197,58 @@ fn page<'i>(prepared: &Prepared, live: &Live) -> Result<LiveWatcher<'i>, Failure
     begin(live, RunSetup::simulated(&prepared.trial, prepared.text.clone()), || false)
 }
 
-/// The outputs that are for one run, and whether they are given.
-fn given(arguments: &RunArguments) -> impl Iterator<Item = (&'static str, bool)> {
+/// The outputs of whole runs, whether they are given, and whether each is for one run only.
+fn given(arguments: &RunArguments) -> impl Iterator<Item = (&'static str, bool, bool)> {
     #[cfg(not(any(feature = "recording", feature = "render", feature = "viewer")))]
     let _ = arguments;
     [
         #[cfg(feature = "recording")]
-        ("--record", arguments.record.is_some()),
+        ("--record", arguments.record.is_some(), true),
         #[cfg(feature = "render")]
-        ("--video", arguments.video.video.is_some()),
+        ("--video", arguments.video.video.is_some(), false),
         #[cfg(feature = "viewer")]
-        ("--view", arguments.video.view),
+        ("--view", arguments.video.view, true),
     ]
     .into_iter()
 }
 
 #[cfg(feature = "render")]
-impl VideoOutput {
-    fn new(options: &VideoOptions, files: &mut CommandFiles) -> Result<Option<Self>, Failure> {
-        let VideoOptions { video, video_size: size, video_speed: speed, video_rate: rate, .. } = options;
+impl VideoOutputs {
+    fn new(arguments: &RunArguments, prepared: &[Prepared], files: &mut CommandFiles) -> Result<Option<Self>, Failure> {
+        let VideoOptions { video, video_size: size, video_speed: speed, video_rate: rate, .. } = &arguments.video;
         let Some(path) = video else { return Ok(None) };
-        let format = Format::of(path)?;
+        let named = path.to_str().and_then(Format::named);
+        let (format, paths) = if let Some(format) = named {
+            let format_name = format.name();
+            let Some(folder) = &arguments.out else { return Err(Failure::NoVideoFolder { format: format_name }) };
+            let names = prepared.iter().map(|prepared| &prepared.trial.scene.name);
+            (format, names.map(|name| extended(&folder.join(name), format_name)).collect())
+        } else {
+            let format = Format::of(path).map_err(of_video(path))?;
+            let scenarios = prepared.len();
+            if scenarios > 1 {
+                return Err(Failure::OneVideo { path: path.clone(), format: format.name(), scenarios });
+            }
+            (format, vec![path.clone()])
+        };
+        let files = paths.iter().map(|path| files.output("--video", path)).collect::<Result<Vec<_>, _>>()?;
         let settings = Settings { size: *size, rate: *rate, speed: *speed };
-        Ok(Some(Self { file: files.output("--video", path)?, format, settings }))
+        Ok(Some(Self { format, settings, files: files.into_iter() }))
     }
 
-    /// What draws the video after the run, and what watches the run for it.
-    fn studio(self, scene: &Scene) -> Result<((Output, Studio), Film), Failure> {
-        let studio = Studio::new(scene, self.format, self.settings)?;
-        Ok(((self.file, studio), Film::new(&self.settings)))
+    /// What draws the video of the next run, and what watches the run for it.
+    fn next(&mut self, trial: &Trial) -> Option<Result<((Output, Studio), Film), Failure>> {
+        let file = self.files.next()?;
+        let studio = Studio::new(&trial.scene, self.format, self.settings).map_err(of_video(file.path()));
+        Some(studio.map(|studio| ((file, studio), Film::new(&self.settings))))
     }
+}
+
+/// The failure of the video at a path.
+#[cfg(feature = "render")]
+fn of_video(path: &Path) -> impl FnOnce(VideoError) -> Failure {
+    let path = path.to_owned();
+    |cause| Failure::Video { path, cause }
 }
 
 /// The progress of a video's frames on standard error, if that is a terminal.

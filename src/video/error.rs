@@ -1,6 +1,5 @@
 //! Errors of videos.
 
-use std::path::PathBuf;
 use vibrissa_text::system::in_words;
 
 use vibrissa_mujoco::visual::RenderError;
@@ -9,8 +8,8 @@ use vibrissa_mujoco::visual::RenderError;
 #[derive(Debug, thiserror::Error)]
 pub enum VideoError {
     /// The extension of the file is not that of a format.
-    #[error("{} has no known format; end its name in .gif or .mp4", .0.display())]
-    Extension(PathBuf),
+    #[error("its name has no known format; end its name in .gif or .mp4, or write only gif or mp4 together with --out")]
+    Extension,
     /// The pictures cannot be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),

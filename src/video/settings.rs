@@ -14,17 +14,28 @@ pub enum Format {
 }
 
 impl Format {
+    /// The format with this name, in capital or small letters.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        [Self::Gif, Self::Mp4].into_iter().find(|format| name.eq_ignore_ascii_case(format.name()))
+    }
+
+    /// Its name, which is also the extension of its files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gif => "gif",
+            Self::Mp4 => "mp4",
+        }
+    }
+
     /// The format for the extension of a path.
     ///
     /// # Errors
     /// [`VideoError::Extension`] if it is neither `.gif` nor `.mp4`.
     pub fn of(path: &Path) -> Result<Self, VideoError> {
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        match extension.as_deref() {
-            Some("gif") => Ok(Self::Gif),
-            Some("mp4") => Ok(Self::Mp4),
-            _ => Err(VideoError::Extension(path.to_owned())),
-        }
+        let extension = path.extension().map(|extension| extension.to_string_lossy());
+        extension.and_then(|extension| Self::named(&extension)).ok_or(VideoError::Extension)
     }
 }
 

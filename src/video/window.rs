@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 use vibrissa_runtime::machine::Observer;
 
 use vibrissa_lab::run::{Trace, Watcher};
-use vibrissa_mujoco::WindowError;
-use vibrissa_mujoco::visual::{Camera, Shown, Window, top};
+use vibrissa_mujoco::visual::{Camera, Shown, Window, WindowError, top};
 use vibrissa_world::scene::Scene;
 use vibrissa_world::world::World;
 

@@ -6,6 +6,7 @@ use std::{fs, io};
 
 use thiserror::Error;
 
+use crate::gallery::{self, GalleryError};
 use crate::links::{self, LinkError};
 use crate::playground;
 
@@ -40,6 +41,8 @@ pub(crate) enum BookError {
     Disk { action: &'static str, path: PathBuf, source: io::Error },
     #[error(transparent)]
     Links(#[from] LinkError),
+    #[error(transparent)]
+    Gallery(#[from] GalleryError),
 }
 
 /// Follows the links, builds the book, and gives the path of its first page.
@@ -53,6 +56,7 @@ pub(crate) fn build(root: &Path) -> Result<PathBuf, BookError> {
     if !status.success() {
         return Err(BookError::Failed(status));
     }
+    gallery::add(root, &book)?;
     add_playground(&playground::folder(root), &book.join("playground"))?;
     Ok(book.join("index.html"))
 }

@@ -13,6 +13,7 @@ mod commits;
 mod cross;
 mod demo;
 mod fuzz;
+mod gallery;
 mod hash;
 mod instructions;
 mod json;

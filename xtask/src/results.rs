@@ -25,6 +25,7 @@ use thiserror::Error;
 
 use crate::cargo::NotStarted;
 use crate::setup::SetupError;
+pub(crate) use inputs::BENCH;
 use kept::Kept;
 pub(crate) use pages::FAMILIES;
 use pages::{Content, PAGES, Page};

@@ -24,8 +24,8 @@ mod model_selector;
 #[cfg(feature = "sim")]
 mod plugin;
 mod prune;
-#[cfg(any(feature = "render", feature = "viewer"))]
-pub(crate) mod visual;
+#[cfg(feature = "sim")]
+pub mod visual;
 #[cfg(feature = "sim")]
 mod world;
 
@@ -39,11 +39,5 @@ pub(crate) use mjcf::{mjcf_within, part_names};
 #[cfg(feature = "sim")]
 pub use plugin::PluginError;
 pub use prune::{Reach, Scope, decisions, is_gentle, may_be_rigid};
-#[cfg(any(feature = "render", feature = "viewer"))]
-pub use visual::Camera;
-#[cfg(feature = "render")]
-pub use visual::RenderError;
-#[cfg(feature = "viewer")]
-pub use visual::WindowError;
 #[cfg(feature = "sim")]
 pub use world::{MujocoError, MujocoWorld};

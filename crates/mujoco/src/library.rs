@@ -8,19 +8,18 @@
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::error::Error as _;
-#[cfg(any(feature = "render", feature = "viewer"))]
-use std::ffi::c_uchar;
-use std::ffi::{c_char, c_int, c_void};
+use std::ffi::{c_char, c_int, c_uchar, c_void};
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};
 
 use libloading::Library;
 use mujoco_rs::mujoco_c;
-use mujoco_rs::mujoco_c::{mjData, mjLogConfig, mjModel, mjVERSION_HEADER, mjVFS, mjfLogHandler};
+use mujoco_rs::mujoco_c::{
+    mjData, mjLogConfig, mjModel, mjVERSION_HEADER, mjVFS, mjfLogHandler, mjrContext, mjrRect, mjvCamera, mjvGeom,
+    mjvOption, mjvPerturb, mjvScene,
+};
 #[cfg(feature = "viewer")]
 use mujoco_rs::mujoco_c::{mjOption, mjSpec, mjVisual};
-#[cfg(any(feature = "render", feature = "viewer"))]
-use mujoco_rs::mujoco_c::{mjrContext, mjrRect, mjvCamera, mjvGeom, mjvOption, mjvPerturb, mjvScene};
 
 /// The reason why MuJoCo's library cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -91,7 +90,7 @@ pub(super) fn load() -> Result<(), LibraryError> {
 /// Loads a library for the rest of the process.
 pub(super) fn open(name: impl AsRef<std::ffi::OsStr>) -> Result<std::mem::ManuallyDrop<Library>, libloading::Error> {
     #[expect(unsafe_code, reason = "a library runs code of its own when it is loaded")]
-    // SAFETY: it is MuJoCo's library or one of its plugins. Their initialisers only register themselves.
+    // SAFETY: it is MuJoCo's library, one of its plugins, or EGL. Their initialisers only set up themselves.
     let library = unsafe { Library::new(name.as_ref()) };
     library.map(std::mem::ManuallyDrop::new)
 }
@@ -181,9 +180,6 @@ pass_on! {
         fn mju_getLogConfig() -> mjLogConfig;
         fn mju_setLogConfig(config: mjLogConfig);
         fn mju_setLogHandler(handler: mjfLogHandler) -> mjfLogHandler;
-    }
-    #[cfg(any(feature = "render", feature = "viewer"))] {
-        fn mjr_changeFont(scale: c_int, context: *mut mjrContext);
         fn mjr_defaultContext(context: *mut mjrContext);
         fn mjr_freeContext(context: *mut mjrContext);
         fn mjr_makeContext(model: *const mjModel, context: *mut mjrContext, font_scale: c_int);
@@ -229,6 +225,7 @@ pass_on! {
         fn mj_resetData(model: *const mjModel, data: *mut mjData);
         fn mj_setState(model: *const mjModel, data: *mut mjData, state: *const f64, parts: c_int);
         fn mj_stateSize(model: *const mjModel, parts: c_int) -> c_int;
+        fn mjr_changeFont(scale: c_int, context: *mut mjrContext);
         fn mjr_overlay(
             font: c_int,
             place: c_int,

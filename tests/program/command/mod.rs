@@ -43,7 +43,7 @@ mod sweep;
 mod test;
 mod tune;
 #[cfg(all(unix, feature = "render"))]
-mod video;
+pub(crate) mod video;
 #[cfg(feature = "viewer")]
 mod view;
 #[cfg(feature = "sim")]

@@ -12,7 +12,7 @@ use crate::python;
 /// What an archive has besides the program.
 const FILES: [&str; 7] =
     ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "policies", "scenarios", "sweeps"];
-/// The features of a program without MuJoCo: all others of the default.
+/// The features of a program without MuJoCo: all of the default that do not need it.
 const WITHOUT_MUJOCO: &str = "recording live lsp outlines";
 
 /// The archive for this computer. MuJoCo's library and plugin lie beside the program, which looks for them there.

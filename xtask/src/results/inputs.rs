@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use super::stamp::StampError;
 
 /// The scenes that the bench and its relatives run, in `scenarios`.
-pub(super) const BENCH: [&str; 10] = [
+pub(crate) const BENCH: [&str; 10] = [
     "disk",
     "rounded-rectangle",
     "complex",

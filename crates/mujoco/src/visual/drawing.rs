@@ -11,28 +11,27 @@ pub(super) const MOST_SEGMENTS: usize = 20_000;
 
 /// A moment of a run.
 #[derive(Debug, Clone)]
-pub(crate) struct Drawing {
+pub struct Drawing {
     /// The pose of the platform (world frame).
-    pub(crate) body: Pose,
-    /// The strokes. The last ones are left out if they have more than [`MOST_SEGMENTS`] segments.
-    pub(crate) strokes: Vec<Stroke>,
+    pub body: Pose,
+    /// The strokes. Segments beyond the first 20,000 are left out.
+    pub strokes: Vec<Stroke>,
 }
 
 /// A line through points.
 #[derive(Debug, Clone)]
-pub(crate) struct Stroke {
+pub struct Stroke {
     /// The points (m, world frame).
-    pub(crate) points: Vec<Point3<f64>>,
+    pub points: Vec<Point3<f64>>,
     /// Red, green, blue and opacity, from 0 to 1.
-    pub(crate) colour: [f32; 4],
+    pub colour: [f32; 4],
     /// Width (px).
-    pub(crate) width: f64,
+    pub width: f64,
 }
 
 impl Drawing {
-    /// Replaces the strokes of a scene by those of this drawing.
+    /// Adds the strokes to a scene.
     pub(super) fn draw(&self, scene: &mut MjvScene) {
-        scene.clear_geom();
         let segments = self
             .strokes
             .iter()

@@ -5,27 +5,24 @@
 
 mod camera;
 mod drawing;
+mod egl;
 mod model;
-#[cfg(feature = "render")]
 mod offscreen;
 #[cfg(feature = "viewer")]
 mod window;
 
 pub use camera::Camera;
-pub(crate) use drawing::{Drawing, Stroke};
-pub(crate) use model::top;
-#[cfg(feature = "render")]
-pub(crate) use offscreen::OffscreenRenderer;
-#[cfg(feature = "render")]
-pub use offscreen::RenderError;
+pub use drawing::{Drawing, Stroke};
+pub use model::top;
+pub use offscreen::{OffscreenRenderer, RenderError};
 #[cfg(feature = "viewer")]
-pub use window::WindowError;
-#[cfg(feature = "viewer")]
-pub(crate) use window::{Shown, Window};
+pub use window::{Shown, Window, WindowError};
 
+#[cfg(feature = "viewer")]
 use std::error::Error;
 
 /// The message of an error and those of its causes. The messages of mujoco-rs alone do not say what happened.
+#[cfg(feature = "viewer")]
 fn whole_message(error: &dyn Error) -> String {
     std::iter::successors(error.source(), |cause| (*cause).source())
         .fold(error.to_string(), |message, cause| format!("{message}: {cause}"))

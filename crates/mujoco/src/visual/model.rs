@@ -20,7 +20,7 @@ const SQUARE: f64 = 0.1;
 const ABOVE: f64 = 1e-3;
 
 /// The height (m) at which strokes are above all objects.
-pub(crate) fn top(physics: &Physics) -> f64 {
+pub fn top(physics: &Physics) -> f64 {
     half_height(physics) + ABOVE
 }
 

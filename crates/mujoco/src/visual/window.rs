@@ -29,7 +29,7 @@ pub enum WindowError {
 
 /// The state of a window after a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shown {
+pub enum Shown {
     /// It is open.
     Open,
     /// It is open, and the user has paused it.
@@ -39,7 +39,7 @@ pub(crate) enum Shown {
 }
 
 /// MuJoCo's window with a scene. Its mouse and keys move the camera. The space bar pauses it.
-pub(crate) struct Window {
+pub struct Window {
     visual: VisualModel,
     viewer: MjViewer,
     is_paused: Arc<AtomicBool>,
@@ -50,7 +50,7 @@ impl Window {
     ///
     /// # Errors
     /// [`WindowError`] if the model cannot be built, or if there is no desktop.
-    pub(crate) fn open(scene: &Scene, camera: &Camera) -> Result<Self, WindowError> {
+    pub fn open(scene: &Scene, camera: &Camera) -> Result<Self, WindowError> {
         let visual = VisualModel::new(scene, camera, [1, 1])?;
         let title = format!("Vibrissa: {}", scene.name);
         let builder = MjViewer::builder().window_name(title).max_user_geoms(MOST_SEGMENTS);
@@ -67,18 +67,21 @@ impl Window {
     }
 
     /// Replaces what the window shows.
-    pub(crate) fn set(&mut self, drawing: &Drawing) {
+    pub fn set(&mut self, drawing: &Drawing) {
         self.visual.place(&drawing.body);
         self.viewer.sync_data(&mut self.visual.data);
         // Only a panic of another holder poisons the lock, and there is none.
-        let _ = self.viewer.with_state_lock(|mut state| drawing.draw(state.user_scene_mut()));
+        let _ = self.viewer.with_state_lock(|mut state| {
+            state.user_scene_mut().clear_geom();
+            drawing.draw(state.user_scene_mut());
+        });
     }
 
     /// Draws it, and answers mouse and keys.
     ///
     /// # Errors
     /// [`WindowError::Draw`].
-    pub(crate) fn draw(&mut self) -> Result<Shown, WindowError> {
+    pub fn draw(&mut self) -> Result<Shown, WindowError> {
         if !self.viewer.running() {
             return Ok(Shown::Closed);
         }
