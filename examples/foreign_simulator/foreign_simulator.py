@@ -99,6 +99,7 @@ def distance_to_box(points):
     return np.abs(outside + np.minimum(local.max(axis=1), 0))
 
 
+# ANCHOR: loop
 def trace(policy, friction, time_limit_s):
     """Drives the model by a policy. Gives the recorded tips (N x 2) and their standard deviations (m), and how the run ended."""
     rig = vibrissa.Rig.load(vibrissa.Text(RIG, "rig.yaml"))
@@ -127,6 +128,7 @@ def trace(policy, friction, time_limit_s):
             return np.array(tips), np.array(deviations), f"closed the loop after {state.time:.1f} s"
     end = f"{control.status}: {control.reason}" if control.reason else f"{control.status} after {state.time:.1f} s"
     return np.array(tips).reshape(-1, 2), np.array(deviations), end
+# ANCHOR_END: loop
 
 
 def main():

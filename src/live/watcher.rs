@@ -120,13 +120,17 @@ impl<'i> LiveWatcher<'i> {
         ControlFlow::Continue(())
     }
 
-    /// The times of the newest tick. Those of an emulated loop are the perceived ones: a late tick shows an overload.
+    /// The times of the newest tick. Those of an emulated loop are the perceived ones: a late tick shows an overload. A replay has
+    /// none, because its wall times are those of another computer than the one that ran the loop.
     fn timing(&mut self, trace: &Trace) -> Option<Timing> {
         if self.setup.is_emulated {
             let [.., before, newest] = trace.ticks.as_slice() else { return None };
             let period = newest.time - before.time;
             let overload = period > 1.5 * self.log.facts.hello.control_period;
             return Some(Timing { period: Some(period), used: 0.0, overload });
+        }
+        if self.setup.command == "replay" {
+            return None;
         }
         let now = Instant::now();
         let used = now.duration_since(self.began_tick).as_secs_f64();

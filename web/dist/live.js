@@ -504,9 +504,11 @@
     const smallest = scales.at(-1) ?? { factor: 1, unit };
     return value === 0 ? { factor: 1, unit } : scales.find(({ factor }) => Math.abs(value) >= factor * 0.9995) ?? smallest;
   }
+  var ROUNDING = 8 * Number.EPSILON;
   function quantity(value, unit) {
-    const scale = scaleOf(value, unit);
-    return `${digits(value / scale.factor)} ${scale.unit}`.trim();
+    const shown = unit !== "" && Math.abs(value) < ROUNDING ? 0 : value;
+    const scale = scaleOf(shown, unit);
+    return `${digits(shown / scale.factor)} ${scale.unit}`.trim();
   }
   function digits(value) {
     const size = Math.abs(value);
@@ -574,7 +576,7 @@
         this.#title.textContent = title;
         document.title = `${title} – vibrissa`;
       }
-      const text2 = status === void 0 ? "waiting" : statusText(status);
+      const text2 = status === void 0 ? "waiting" : statusText(status, run.past);
       if (this.#status.textContent !== text2) {
         this.#status.textContent = text2;
         this.#status.dataset["state"] = status?.state ?? "";
@@ -647,7 +649,10 @@
       }
     }
   };
-  function statusText({ state, reason, breakpoint, verdict, metrics }) {
+  function statusText({ state, reason, breakpoint, verdict, metrics }, { count, missing }) {
+    if (state === "finished" && missing > 0) {
+      return `loading the past: ${count - missing} of ${count} ticks`;
+    }
     switch (state) {
       case "running":
         return "running";
@@ -1527,6 +1532,11 @@
           });
         }
       }
+    }
+    /** The number of ticks until now, and how many of them the page does not have and asks for. */
+    get past() {
+      const open = [...this.#missing, ...this.#requested === void 0 ? [] : [this.#requested]];
+      return { count: this.#next, missing: open.reduce((sum, [from, to]) => sum + to - from, 0) };
     }
     /** The largest distance of a part of a guard that was seen. */
     largest(guard, part) {

@@ -12,6 +12,7 @@ async function load(name, page = "live") {
 
 const [{ Run }, { layOut }, { quantity }] = await Promise.all(["run", "layout", "quantity"].map((name) => load(name)));
 const { subjects } = await load("subjects");
+const { statusText } = await load("controls");
 const { csv } = await load("cells", "report");
 const example = JSON.parse(await readFile("test/live-example.json", "utf8"));
 const hello = example.find(({ type }) => type === "hello");
@@ -48,6 +49,25 @@ test("every tick that was left out is asked for once, the newest ones first", ()
   }
   assert.ok(asked.every(([from], index) => index === 0 || asked[index - 1][0] > from), String(asked));
   assert.deepEqual(run.history.frames.map(({ tick }) => tick), Array.from({ length: 4200 }, (_, tick) => tick));
+});
+
+test("a run has finished only when all of its past is loaded", () => {
+  const run = new Run(hello);
+  const status = { ...example.find(({ state }) => state === "finished"), verdict: "completed", reason: null, metrics: null };
+  run.expect(1501);
+  const [from, to] = run.request();
+  assert.equal(statusText(status, run.past), "loading the past: 0 of 1501 ticks");
+  run.fill(ticks(from, to));
+  assert.equal(statusText(status, run.past), `loading the past: ${to - from} of 1501 ticks`);
+  assert.equal(statusText({ ...status, state: "running" }, run.past), "running");
+  run.fill(ticks(...run.request()));
+  assert.equal(statusText(status, run.past), "finished: completed");
+});
+
+test("what rounding leaves of an angle is 0, and a number without a unit is shown as it is", () => {
+  assert.equal(quantity(-3.77e-131, "rad"), "0 rad");
+  assert.equal(quantity(1e-12, "rad"), "1.00e-6 urad");
+  assert.equal(quantity(1e-20, ""), "1.00e-20");
 });
 
 test("a long run is thinned, and keeps its newest ticks and every recorded tip", () => {

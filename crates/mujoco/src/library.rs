@@ -23,15 +23,33 @@ use mujoco_rs::mujoco_c::{mjOption, mjSpec, mjVisual};
 
 /// The reason why MuJoCo's library cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup` in a checkout, or `pip install mujoco=={}` for Python, or use the \
-     simulator `quasistatic`, which does not need it",
-    version()
-)]
-pub struct LibraryError {
-    /// The message of the loader.
-    cause: String,
+pub enum LibraryError {
+    /// The loader does not find the library, or cannot use it.
+    #[error(
+        "MuJoCo's library cannot be loaded ({cause}): run `cargo x setup` in a checkout, or `pip install mujoco=={}` for Python, or use the \
+         simulator `quasistatic`, which does not need it",
+        shown(NEEDED)
+    )]
+    NotLoaded {
+        /// The message of the loader.
+        cause: String,
+    },
+    /// The library is of another version.
+    #[error(
+        "MuJoCo {needed} is needed, but {} is MuJoCo {}: run `cargo x setup` in a checkout, or `pip install mujoco=={needed}` for Python, or \
+         set its variable `VIBRISSA_MUJOCO` to the path of a library of {needed}, or use the simulator `quasistatic`, which needs none",
+        file.display(), shown(*found), needed = shown(NEEDED)
+    )]
+    Version {
+        /// The file, or its name if the loader searched it.
+        file: PathBuf,
+        /// Its version, as MuJoCo counts: 3 017 000 is 3.17.0.
+        found: c_int,
+    },
 }
+
+/// The version that mujoco-rs requires, as MuJoCo counts.
+const NEEDED: c_int = mjVERSION_HEADER.cast_signed();
 
 /// The file of the library, if its place is known.
 static FILE: OnceLock<PathBuf> = OnceLock::new();
@@ -74,15 +92,30 @@ fn beside_program() -> Option<PathBuf> {
 
 /// The functions of the loaded library. It is never unloaded.
 static FUNCTIONS: LazyLock<Result<Functions, LibraryError>> = LazyLock::new(|| {
-    let failed = |cause: libloading::Error| LibraryError { cause: loader_message(&cause) };
+    let failed = |cause: libloading::Error| LibraryError::NotLoaded { cause: loader_message(&cause) };
     let file = file().map_or_else(|| file_name().into(), Path::to_path_buf);
-    open(file).and_then(|library| Functions::of(&library)).map_err(failed)
+    let library = open(&file).map_err(failed)?;
+    // First of all, because another version may lack functions, and mujoco-rs panics.
+    let found = version_of(&library).map_err(failed)?;
+    if found != NEEDED {
+        return Err(LibraryError::Version { file, found });
+    }
+    Functions::of(&library).map_err(failed)
 });
+
+/// The version of a library, as MuJoCo counts. The function is the same in all versions.
+fn version_of(library: &Library) -> Result<c_int, libloading::Error> {
+    #[expect(unsafe_code, reason = "a library does not say what its functions take")]
+    // SAFETY: this is the signature of MuJoCo's function in all versions that have it.
+    unsafe {
+        library.get::<unsafe extern "C" fn() -> c_int>("mj_version").map(|version| version())
+    }
+}
 
 /// Loads the library once per process.
 ///
 /// # Errors
-/// [`LibraryError`] if the loader does not find the library, or if it is not usable.
+/// [`LibraryError`] if the loader does not find the library, or if it is not usable, such as another version.
 pub(super) fn load() -> Result<(), LibraryError> {
     FUNCTIONS.as_ref().map(|_| ()).map_err(Clone::clone)
 }
@@ -100,15 +133,14 @@ pub(super) fn loader_message(cause: &libloading::Error) -> String {
     cause.source().map_or_else(|| cause.to_string(), ToString::to_string)
 }
 
-/// The version of the library that mujoco-rs requires.
-fn version() -> String {
-    let [major, minor, patch] = [mjVERSION_HEADER / 1_000_000, mjVERSION_HEADER / 1000 % 1000, mjVERSION_HEADER % 1000];
-    format!("{major}.{minor}.{patch}")
+/// A version that is counted as MuJoCo counts.
+fn shown(version: c_int) -> String {
+    format!("{}.{}.{}", version / 1_000_000, version / 1000 % 1000, version % 1000)
 }
 
 /// The file name of the library version that mujoco-rs requires. The program's loader path includes its directory.
 fn file_name() -> String {
-    let version = version();
+    let version = shown(NEEDED);
     if cfg!(target_vendor = "apple") {
         format!("@rpath/{DLL_PREFIX}mujoco.{version}{DLL_SUFFIX}")
     } else {

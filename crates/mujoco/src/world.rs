@@ -182,7 +182,7 @@ impl MujocoWorld {
                 return Err(if is_body {
                     Fault::Crash { time, depth }
                 } else {
-                    Fault::Penetration { time, depth, limit }
+                    Fault::Penetration { time, depth, limit, shorter_times: self.physics.shorter_times() }
                 });
             }
         }

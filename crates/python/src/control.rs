@@ -9,6 +9,7 @@ use vibrissa_runtime::machine::{LoggedMessage, Senses, Status, WhiskerScalar, Wh
 use vibrissa_runtime::signal;
 
 use crate::arrays::{Numbers, list, table};
+use crate::error::error;
 use crate::map::of_map;
 use crate::pickle::{Reduced, hash_of, restored_from};
 use crate::samples::GivenSamples;
@@ -24,6 +25,8 @@ pub(crate) struct Control {
     /// Number of whiskers of the rig.
     width: usize,
     status: Status,
+    /// The latest time (s) of a sample. Minus infinity before the first one.
+    latest: f64,
 }
 
 /// A command to the platform, valid until the next tick.
@@ -33,8 +36,24 @@ pub(crate) struct Command(signal::Command);
 
 impl Control {
     pub(crate) fn new(control: vibrissa_runtime::control::Control, width: usize) -> Self {
-        Self { inner: control, width, status: Status::Running }
+        Self { inner: control, width, status: Status::Running, latest: f64::NEG_INFINITY }
     }
+}
+
+/// The latest time (s) after these samples.
+///
+/// # Errors
+/// A time is less than an earlier one.
+fn latest_time(before: f64, samples: &[signal::Sample]) -> PyResult<f64> {
+    samples.iter().try_fold(before, |latest, &signal::Sample { time, .. }| {
+        if time < latest {
+            return Err(error(format_args!(
+                "time_s: {time} s comes after {latest} s, but the time of samples never decreases; give the samples oldest first, and start \
+                 the machine anew for another run"
+            )));
+        }
+        Ok(latest.max(time))
+    })
 }
 
 #[pymethods]
@@ -58,7 +77,10 @@ impl Control {
             shear: shear_n,
             axial: axial_n,
         };
-        let (command, tick) = self.inner.tick(&given.samples(self.width)?);
+        let samples = given.samples(self.width)?;
+        // Before the tick, so that refused samples leave the control loop as it was.
+        self.latest = latest_time(self.latest, &samples)?;
+        let (command, tick) = self.inner.tick(&samples);
         self.status = tick.status;
         Ok(Command(command))
     }

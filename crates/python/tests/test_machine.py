@@ -122,3 +122,15 @@ def test_a_tick_accepts_missing_readings():
         command = control.tick(tick / 30, [0.0, 0.0], 0.0, [angle, 0.0])
         assert np.isfinite(command.velocity_m_s).all()
     control.tick([], np.empty((0, 2)), [], np.empty((0, 2)))
+
+
+def test_the_time_of_samples_never_decreases():
+    rig = vibrissa.Rig.load("reference")
+    control = vibrissa.compile("bang").start(rig)
+    control.tick(0.1, [0.0, 0.0], 0.0, [0.0, 0.0])
+    control.tick(0.1, [0.0, 0.0], 0.0, [0.0, 0.0])  # An equal time is no earlier one.
+    with pytest.raises(vibrissa.Error, match="0.05 s comes after 0.1 s"):
+        control.tick(0.05, [0.0, 0.0], 0.0, [0.0, 0.0])
+    with pytest.raises(vibrissa.Error, match="0.2 s comes after 0.3 s"):
+        control.tick([0.3, 0.2], np.zeros((2, 2)), [0.0, 0.0], np.zeros((2, 2)))
+    control.tick(0.2, [0.0, 0.0], 0.0, [0.0, 0.0])

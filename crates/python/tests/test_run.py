@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -149,3 +150,16 @@ def test_without_a_library_the_error_says_what_to_do(tmp_path):
     environment = {"VIBRISSA_MUJOCO": str(tmp_path / "none.so"), "PATH": ""}
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
     assert "pip install mujoco==" in ended.stderr and "quasistatic" in ended.stderr, ended.stderr
+
+
+def test_another_version_of_the_library_is_refused_before_the_first_model(tmp_path):
+    if shutil.which("cc") is None:
+        pytest.skip("there is no C compiler")
+    source, library = tmp_path / "other.c", tmp_path / "libmujoco.so.4.0.0"
+    source.write_text("int mj_version(void) { return 4000000; }\n")
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", library, source], check=True)
+    code = "import vibrissa\ntry: vibrissa.run('disk', world='mujoco')\nexcept vibrissa.Error as error: print(error)"
+    environment = {"VIBRISSA_MUJOCO": str(library), "PATH": ""}
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    for wanted in ["MuJoCo 3.17.0 is needed", f"{library} is MuJoCo 4.0.0", "pip install mujoco==3.17.0", "VIBRISSA_MUJOCO"]:
+        assert wanted in ended.stdout, ended.stdout + ended.stderr

@@ -89,3 +89,30 @@ fn a_damaged_library_or_plugin_is_told_with_what_to_do() {
     let output = run(&directory, &["run", "scene.yaml"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
+
+/// A library with nothing but MuJoCo's function for its version, and the answer of a version that this program does not use.
+const OTHER_VERSION: &str = "int mj_version(void) { return 4000000; }\n";
+
+#[test]
+fn another_version_of_the_library_is_refused_by_every_command_that_loads_it() {
+    let Some(directory) = elsewhere("other-version") else { return };
+    let libraries = Path::new(LIBRARIES.unwrap());
+    let mut names = std::fs::read_dir(libraries).unwrap().map(|entry| entry.unwrap().file_name());
+    let name = names.find(|name| name.to_string_lossy().starts_with("libmujoco.so.")).unwrap();
+    let source = directory.join("other.c");
+    std::fs::write(&source, OTHER_VERSION).unwrap();
+    // Beside the program, as in a release.
+    let library = directory.join(name);
+    let compiled = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(&source).status().unwrap();
+    assert!(compiled.success());
+    for arguments in [&["run", "scene.yaml"][..], &["study", "stress"], &["bench"], &["calibrate"]] {
+        let output = run(&directory, arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        let told = stderr(&output);
+        for wanted in ["error: ", "MuJoCo 3.17.0 is needed", "libmujoco.so", "is MuJoCo 4.0.0", "quasistatic"] {
+            assert!(told.contains(wanted), "{arguments:?}: {wanted}: {told}");
+        }
+    }
+    let output = run(&directory, &["run", "scene.yaml", "--simulator", "quasistatic"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}

@@ -188,5 +188,10 @@ fn a_page_knows_the_start_pose_before_the_first_tick() {
         let start: Vec<f64> = hello["start"].as_array().unwrap().iter().map(|part| part.as_f64().unwrap()).collect();
         let expected = [0.0, 0.072, std::f64::consts::FRAC_PI_2];
         assert!(start.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{words:?}: {start:?}");
+        if words[0] == "replay" {
+            let frames = all_frames(&mut page);
+            let is_timed = |frame: &Value| !frame["loop"].is_null();
+            assert!(!frames.is_empty() && !frames.iter().any(is_timed), "wall times of a replay are those of another computer");
+        }
     }
 }

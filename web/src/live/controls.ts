@@ -2,6 +2,7 @@ import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
 import type { Status } from "./protocol.ts";
 import { digits, quantity } from "./quantity.ts";
+import type { Run } from "./run.ts";
 import type { Actions, Panel, View } from "./view.ts";
 
 /** The durations (s) of the plots. */
@@ -68,7 +69,7 @@ export class Controls implements Panel {
       this.#title.textContent = title;
       document.title = `${title} – vibrissa`;
     }
-    const text = status === undefined ? "waiting" : statusText(status);
+    const text = status === undefined ? "waiting" : statusText(status, run.past);
     if (this.#status.textContent !== text) {
       this.#status.textContent = text;
       this.#status.dataset["state"] = status?.state ?? "";
@@ -147,8 +148,11 @@ export class Controls implements Panel {
   }
 }
 
-/** What the run does, in words. */
-function statusText({ state, reason, breakpoint, verdict, metrics }: Status): string {
+/** What the run does, in words. After its end, the page may still be loading ticks. */
+export function statusText({ state, reason, breakpoint, verdict, metrics }: Status, { count, missing }: Run["past"]): string {
+  if (state === "finished" && missing > 0) {
+    return `loading the past: ${count - missing} of ${count} ticks`;
+  }
   switch (state) {
     case "running": return "running";
     case "paused": return breakpoint === null ? (reason === "start" ? "paused at the start" : "paused") : `paused at ${breakpoint}`;

@@ -21,10 +21,14 @@ export function scaleOf(value: number, unit: string): Scale {
   return value === 0 ? { factor: 1, unit } : (scales.find(({ factor }) => Math.abs(value) >= factor * 0.9995) ?? smallest);
 }
 
+/** A smaller value with a unit is what the rounding of numbers near 1 leaves, and is shown as 0. */
+const ROUNDING = 8 * Number.EPSILON;
+
 /** A value in SI units with three digits, such as "540 urad". */
 export function quantity(value: number, unit: string): string {
-  const scale = scaleOf(value, unit);
-  return `${digits(value / scale.factor)} ${scale.unit}`.trim();
+  const shown = unit !== "" && Math.abs(value) < ROUNDING ? 0 : value;
+  const scale = scaleOf(shown, unit);
+  return `${digits(shown / scale.factor)} ${scale.unit}`.trim();
 }
 
 /** A number with three digits. */

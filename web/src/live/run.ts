@@ -75,6 +75,12 @@ export class Run {
     }
   }
 
+  /** The number of ticks until now, and how many of them the page does not have and asks for. */
+  get past(): { count: number; missing: number } {
+    const open = [...this.#missing, ...(this.#requested === undefined ? [] : [this.#requested])];
+    return { count: this.#next, missing: open.reduce((sum, [from, to]) => sum + to - from, 0) };
+  }
+
   /** The largest distance of a part of a guard that was seen. */
   largest(guard: number, part: number): number {
     return this.#largest.get(`${guard} ${part}`) ?? 0;

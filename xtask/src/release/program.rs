@@ -1,17 +1,19 @@
 //! Archives of the program.
 
+use std::fs;
 use std::path::Path;
 
 use super::{Places, ReleaseError, VERSION, host, succeed};
 use crate::cargo::cargo;
 use crate::cross::{self, Cross};
-use crate::pack::{archive, copy};
+use crate::pack::{archive, copy, disk};
 use crate::platform::Platform;
 use crate::python;
 
-/// What an archive has besides the program.
-const FILES: [&str; 7] =
-    ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "policies", "scenarios", "sweeps"];
+/// What an archive has besides the program and [`README`].
+const FILES: [&str; 6] = ["CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "policies", "scenarios", "sweeps"];
+/// The first page of an archive. That of the repository leads to pages that an archive does not have.
+const README: &str = include_str!("archive.md");
 /// The features of a program without MuJoCo: all of the default that do not need it.
 const WITHOUT_MUJOCO: &str = "recording live lsp outlines";
 
@@ -63,6 +65,21 @@ fn pack(
     for file in FILES {
         copy(&places.root.join(file), &files.join(file))?;
     }
+    let readme = files.join("README.md");
+    fs::write(&readme, README).map_err(disk("write", &readme))?;
     archive(&places.staging, &name, &places.folder)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_page_of_an_archive_leads_to_nothing_that_the_archive_lacks() {
+        assert!(!README.contains("]("), "links would lead to the repository");
+        for file in ["policies", "scenarios", "sweeps", "CHANGELOG.md"] {
+            assert!(FILES.contains(&file) && README.contains(&format!("`{file}`")), "{file}");
+        }
+    }
 }

@@ -65,6 +65,14 @@ impl Physics {
         }
     }
 
+    /// Half of the step and of the contact time (s), as advice after a whisker penetrated too deeply. `None` if the step already
+    /// suffices for a tip that snaps off: then a shorter one changes little.
+    #[must_use]
+    pub fn shorter_times(&self) -> Option<[f64; 2]> {
+        // A step of a scenario is a rounded fraction of the sample period.
+        (self.step > 1.002 * FRICTION_STEP).then_some([0.5 * self.step, 0.5 * self.contact_time])
+    }
+
     /// True if whiskers at rest in the air are rigid. Gravity bends a spatial chain, so it is never rigid.
     #[must_use]
     pub fn has_rigid_whiskers(&self) -> bool {

@@ -122,7 +122,8 @@ impl QuasiStaticWorld {
             let position: Point2 = body.point_to_world(part.base_body);
             let base = Pose { position, heading: body.heading + part.direction_body };
             whisker.follow(base, self.period, &self.surfaces, limit).map_err(|error| match error {
-                EquilibriumError::Penetration(depth) => Fault::Penetration { time, depth, limit },
+                // There is no step of the simulation that could be shorter.
+                EquilibriumError::Penetration(depth) => Fault::Penetration { time, depth, limit, shorter_times: None },
                 // The base is a part of the platform.
                 EquilibriumError::PassedThrough(depth) => Fault::Crash { time, depth },
                 EquilibriumError::NotConverged => {
