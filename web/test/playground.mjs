@@ -126,6 +126,47 @@ await serve(program, ["playground", folder], async (address) => {
     await page.waitForFunction(() => document.querySelector(".status").textContent.includes("stopped"));
   });
 
+  // A worker that is slow to load is waited for. One that does not answer is ended, and a run starts another one. The page looks by an interval.
+  await open("about:blank", "light", 1600, async (page) => {
+    await page.addInitScript(() => {
+      window.looks = [];
+      window.setInterval = (look) => window.looks.push(look);
+      window.workers = 0;
+      const Real = window.Worker;
+      window.Worker = class extends Real {
+        constructor(address) {
+          super(address);
+          window.workers += 1;
+        }
+        postMessage(message) {
+          if (!(window.isMute && message.type === "start")) {
+            super.postMessage(message);
+          }
+        }
+      };
+    });
+    const look = () => page.evaluate(() => Array.from({ length: 60 }).forEach(() => window.looks.forEach((look) => look())));
+    let load = () => undefined;
+    const held = new Promise((resolve) => { load = resolve; });
+    await page.route("**/vibrissa.wasm", async (route) => {
+      await held;
+      await route.continue();
+    });
+    await page.goto(address);
+    await page.waitForFunction(() => window.looks.length > 0);
+    await look();
+    load();
+    await expectVerdict(page, /^completed/);
+    await page.evaluate(() => { window.isMute = true; });
+    await page.click(".bar .primary");
+    await look();
+    await page.waitForFunction(() => document.querySelector(".notice").textContent === "The simulation took too long to start. Press run to try again.");
+    await page.evaluate(() => { window.isMute = false; });
+    await page.keyboard.press("Control+Enter");
+    await page.waitForFunction(() => document.querySelector(".status").dataset.state === "running" && document.querySelector(".notice").textContent === "");
+    assert.equal(await page.evaluate(() => window.workers), 2);
+  });
+
   // Scenes of the zoo and of families, each of which runs.
   await open(address, "light", 1600, async (page) => {
     await expectVerdict(page, /^completed/);

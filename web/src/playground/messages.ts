@@ -96,6 +96,8 @@ export type FromWorker =
   | { type: "refused"; error: string }
   | { type: "scored"; result: Result; picture: string; realtime: number }
   | { type: "compared"; scenario: string; policy: string; result: Result | undefined }
+  /** A message of the page has been answered as far as it is at once. */
+  | { type: "taken" }
   | { type: "alive" }
   | { type: "broken"; error: string };
 

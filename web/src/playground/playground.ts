@@ -62,9 +62,9 @@ export class Playground {
       },
     );
     this.#run = button("run", () => this.#start(), "simulate the policy in the scene (Ctrl+Enter)");
-    this.#simulator = new Simulator((message) => this.#hear(message), (reason) => {
+    this.#simulator = new Simulator((message) => this.#hear(message), () => this.#language.open(this.#policy?.text ?? ""), (reason) => {
       this.#tell(reason);
-      this.#language.open(this.#policy?.text ?? "");
+      this.#language.close();
       this.#receive({ type: "status", state: "finished", reason, breakpoint: null, verdict: "stopped", metrics: null, ticks: 0, kept_every: 1, breakpoints: [] });
     });
   }
@@ -97,6 +97,7 @@ export class Playground {
           this.#score.other(message.policy, message.result);
         }
         break;
+      case "taken":
       case "alive":
       case "broken":
       case "answered":

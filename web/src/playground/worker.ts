@@ -301,17 +301,22 @@ function guard(work: () => void): void {
   }
 }
 
+function receive(message: ToWorker): void {
+  worker?.receive(message);
+  scope.postMessage({ type: "taken" });
+}
+
 scope.addEventListener("message", ({ data }) => {
   if (worker === undefined) {
     waiting.push(data);
   } else {
-    guard(() => worker?.receive(data));
+    guard(() => receive(data));
   }
 });
 Machine.load("vibrissa.wasm").then(
   (machine) => guard(() => {
     worker = new Worker(machine);
-    waiting.splice(0).forEach((message) => worker?.receive(message));
+    waiting.splice(0).forEach(receive);
   }),
   (fault: unknown) => scope.postMessage({ type: "broken", error: String(fault) }),
 );
