@@ -76,14 +76,14 @@ export class Simulator {
       switch (data.type) {
         case "ready": this.#isReady = true; break;
         case "taken": this.#pending -= 1; return;
-        case "broken": this.#end(this.#isReady ? `The simulation broke off: ${data.error}. Press run to try again.` : `The simulation cannot be loaded: ${data.error}. Press run to try again.`); return;
+        case "broken": this.#end(this.#isReady ? `The simulation broke off: ${data.error}. Press run to try again.` : `The simulation cannot be loaded: ${data.error}. Load the page again.`); return;
         case "answered": this.#answered(data.id, data.answer, data.error); return;
         case "refused": this.#isStarting = false; break;
         case "live": this.#isStarting &&= data.message.type !== "hello";
       }
       this.#receive(data);
     });
-    worker.addEventListener("error", () => worker === this.#worker && this.#end("The simulation cannot be loaded: worker.js is missing. Press run to try again."));
+    worker.addEventListener("error", () => worker === this.#worker && this.#end("The simulation cannot be loaded: worker.js is missing. Load the page again."));
     return worker;
   }
 
