@@ -121,14 +121,14 @@ async function checkEditor(address) {
   await open(address, "light", 1600, async (page) => {
     await expectVerdict(page, "completed");
     await write(page, "machine m\n\ninitial A\n\n");
-    for (const line of ["state A {", "stop", "when time > 1 s -> A", "}", "state B {", "if true {", "stop", "}", "}"]) {
+    for (const line of ["state A {", "stop", "when time > 1 s -> B", "}", "state B {", "if true {", "stop", "}", "}"]) {
       await page.keyboard.type(line);
       // A proposal would take the key Enter.
       await page.keyboard.press("Escape");
       await page.keyboard.press("Enter");
     }
     const lines = await page.$$eval(`${POLICY} .cm-line`, (lines) => lines.map((line) => line.textContent.trimEnd()).join("\n"));
-    assert.equal(lines, "machine m\n\ninitial A\n\nstate A {\n  stop\n  when time > 1 s -> A\n}\nstate B {\n  if true {\n    stop\n  }\n}\n");
+    assert.equal(lines, "machine m\n\ninitial A\n\nstate A {\n  stop\n  when time > 1 s -> B\n}\nstate B {\n  if true {\n    stop\n  }\n}\n");
     await page.waitForFunction(() => [...document.querySelectorAll(".listed li")].some(({ textContent }) => textContent.startsWith("warning in line")));
     const { ring, keys } = await page.$eval(POLICY, (part) => ({ ring: getComputedStyle(part).outline, keys: document.getElementById(part.getAttribute("aria-describedby"))?.textContent }));
     assert.match(ring, /solid 2px/);
