@@ -17,7 +17,7 @@
     button2.textContent = label2;
     if (description !== void 0) {
       button2.title = description;
-      button2.setAttribute("aria-label", description);
+      button2.setAttribute("aria-label", description.startsWith(label2) || !/[\p{L}\p{N}]/u.test(label2) ? description : `${label2}: ${description}`);
     }
     button2.addEventListener("click", () => action(button2));
     return button2;
@@ -525,7 +525,7 @@
     element;
     #actions;
     #up;
-    #title = element("h1", "", "vibrissa");
+    #title;
     #status = element("p", "status");
     #fault = element("p", "fault");
     #pause;
@@ -536,9 +536,10 @@
     #time = element("output", "time");
     #gaps = element("p", "hint");
     #view;
-    /** `up` goes to the outer state in the chart. */
-    constructor(actions, up) {
+    /** `up` goes to the outer state in the chart. `heading` is the element of the title. */
+    constructor(actions, up, heading) {
       [this.#actions, this.#up] = [actions, up];
+      this.#title = element(heading, "", "vibrissa");
       this.#pause = button("pause", () => this.#toggle(), "pause or continue the run (key P)");
       this.#step = button("step", () => this.#advance(1), "execute one tick (key S)");
       this.#steps = button("30 ticks", () => this.#advance(30), "execute 30 ticks (key Shift S)");
@@ -1831,7 +1832,7 @@
     #world = new World();
     /** The largest distance (m) of a part of the robot from its centre. */
     #reach;
-    #svg = svg("svg", { viewBox: "0 0 100 100" });
+    #svg = svg("svg", { viewBox: "0 0 100 100", "aria-hidden": "true" });
     #objects = svg("path", { class: "objects" });
     #track;
     #otherTrace = svg("path", { class: "trace other" });
@@ -2086,7 +2087,7 @@
     constructor(root2, connect = (receive, change) => new Connection(receive, change), stage) {
       this.#stage = stage;
       this.#root = root2;
-      this.#controls = new Controls(this, () => this.#chart?.up());
+      this.#controls = new Controls(this, () => this.#chart?.up(), stage === void 0 ? "h1" : "h2");
       (stage ?? root2).replaceChildren(this.#controls.element);
       this.#connection = connect(
         (message) => this.#receive(message),

@@ -7,7 +7,7 @@
     button2.textContent = label;
     if (description !== void 0) {
       button2.title = description;
-      button2.setAttribute("aria-label", description);
+      button2.setAttribute("aria-label", description.startsWith(label) || !/[\p{L}\p{N}]/u.test(label) ? description : `${label}: ${description}`);
     }
     button2.addEventListener("click", () => action(button2));
     return button2;

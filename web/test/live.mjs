@@ -102,7 +102,7 @@ await serve(run, async (address) => {
     await page.waitForFunction((plots) => document.querySelectorAll(".plot").length > plots, plots);
 
     // A guard has a breakpoint.
-    await tabTo(page, ".guards button[aria-label^='pause when']");
+    await tabTo(page, ".guards button[aria-label*='pause when']");
     const count = (await page.$$(".breakpoints li")).length;
     for (const change of [1, 0]) {
       await page.keyboard.press("Enter");

@@ -5,6 +5,7 @@ import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { browser, checkFit, open, tabTo } from "./browser.mjs";
 import { fragment, hostileLinks } from "./hostile.mjs";
+import { checkNewcomer } from "./newcomer.mjs";
 import { serve } from "./program.mjs";
 
 const [program, folder] = process.argv.slice(2);
@@ -28,6 +29,8 @@ async function write(page, policy) {
 const still = (scenario) => ({ scenario, policy: "machine still  initial Still  state Still { stop }\n", set: {} });
 
 await serve(program, ["playground", folder], async (address) => {
+  await checkNewcomer(address);
+
   for (const colorScheme of ["light", "dark"]) {
     for (const width of [400, 1600]) {
       await open(address, colorScheme, width, async (page) => {
@@ -100,14 +103,14 @@ await serve(program, ["playground", folder], async (address) => {
     await page.waitForSelector(".cm-tooltip .hover");
     await write(page, "machine m   initial A state A {stop}\n");
     await page.waitForFunction(() => document.querySelector(".problems").textContent.startsWith("0 errors"));
-    await page.click("text=format");
+    await page.click('.bar >> text="format"');
     await page.waitForFunction(() => document.querySelectorAll('.cm-content[aria-label="policy"] .cm-line').length > 3);
 
     // The steps.
     for (let step = 1; step <= 5; step += 1) {
+      await page.selectOption(SPEED, "3");
       await page.click(`.lessons .head button:nth-child(${step})`);
       await page.click(".lessons >> text=solution");
-      await page.selectOption(SPEED, "3");
       await page.waitForFunction(() => document.querySelector(".lesson-verdict")?.textContent === "Done.");
     }
 
@@ -120,9 +123,9 @@ await serve(program, ["playground", folder], async (address) => {
     // A policy whose run would take for ever in a scene is stopped.
     await write(page, still("").policy);
     await page.selectOption(SPEED, "0");
-    await page.click("text=run");
+    await page.click(".bar .primary");
     await page.waitForFunction(() => document.querySelector(".status").dataset.state === "running");
-    await page.click("text=stop");
+    await page.click('.bar >> text="stop"');
     await page.waitForFunction(() => document.querySelector(".status").textContent.includes("stopped"));
   });
 
@@ -130,7 +133,7 @@ await serve(program, ["playground", folder], async (address) => {
   await open(address, "light", 1600, async (page) => {
     await expectVerdict(page, /^completed/);
     await page.selectOption(SPEED, "3");
-    const titled = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector("h1").textContent), pattern.source);
+    const titled = (pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector(".title h2").textContent), pattern.source);
     for (const [scene, title] of [["zoo/star5", /^star5/], ["family rooms", /^rooms-0/], ["family shapes", /^shapes-0/]]) {
       await page.selectOption(SCENE, scene);
       await titled(title);
@@ -238,7 +241,7 @@ await serve(program, ["playground", folder], async (address) => {
     const slider = page.locator(".parameters input[type=range]").first();
     await slider.focus();
     await page.keyboard.press("ArrowRight");
-    await page.click("text=copy link");
+    await page.click('.bar >> text="copy link"');
     await page.waitForFunction(() => location.hash.length > 100);
     const [link, before, value] = [page.url(), await text(page, "policy"), await slider.inputValue()];
     await open(link, "light", 1600, async (other) => {

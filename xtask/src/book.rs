@@ -21,6 +21,10 @@ const WHEELS: [&str; 3] = [
     "1266125e1b99b5cb56ee37199f927b2e244dd981c04197a72df98017c3481e18",
 ];
 
+/// How the playground's link to the book is written while there is none beside it, and in the book.
+const HIDDEN: &str = r#"<a class="book" href="../index.html" hidden>"#;
+const LINKED: &str = r#"<a class="book" href="../index.html">"#;
+
 /// Why there is no book, and what to do.
 #[derive(Debug, Error)]
 pub(crate) enum BookError {
@@ -78,7 +82,10 @@ fn add_playground(built: &Path, copy: &Path) -> Result<(), BookError> {
             fs::copy(&file, copy.join(name)).map_err(disk("copy", &file))?;
         }
     }
-    Ok(())
+    // The page links the book only where there is one.
+    let page = copy.join("index.html");
+    let text = fs::read_to_string(&page).map_err(disk("read", &page))?;
+    fs::write(&page, text.replace(HIDDEN, LINKED)).map_err(disk("write", &page))
 }
 
 /// The program: the user's own, or else one that is installed into the target directory once.

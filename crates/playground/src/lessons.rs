@@ -47,10 +47,11 @@ const DONE: &[&str] = &["completed", "ended"];
 pub(crate) const LESSONS: [Lesson; 5] = [
     Lesson {
         title: "Drive until something is there",
-        text: "A machine binds whiskers and begins in its initial state. Thirty times per second it takes the transitions that are due, and \
-               then executes the statements of the state. A transition is `when CONDITION -> TARGET`. The targets `Success(\"why\")` and \
-               `Failure(\"why\")` end the run.",
-        task: "Add a transition, so that the run ends in success as soon as `r0.touching` holds.",
+        text: "A policy is a machine. `whisker r0` says that it uses the robot's right whisker and calls it `r0`. The machine begins in \
+               its `initial` state. Thirty times per second it takes the transitions that are due, and then executes the statements of \
+               the state. A transition is `when CONDITION -> TARGET`. The targets `Success(\"why\")` and `Failure(\"why\")` end the run. \
+               Watch the run: the whisker bends at the disk, but the robot drives on, because its state has no transition.",
+        task: "Add a transition to the state `Exploring`, so that the run ends in success as soon as `r0.touching` holds.",
         scene: "disk",
         policy: include_str!("../lessons/1.fsm"),
         solution: include_str!("../lessons/1-solution.fsm"),
@@ -72,10 +73,12 @@ pub(crate) const LESSONS: [Lesson; 5] = [
     Lesson {
         title: "Turn with the contour",
         text: "The platform does not rotate, so it drives past the disk. As soon as `r0.contour.ready` holds, `r0.contour.tangent` is the \
-               direction of the contour at the tip. `steer r0 along DIRECTION at SPEED facing HEADING` moves the base of the whisker and \
-               turns the body. `rotate(DIRECTION, ANGLE)` turns a direction, and `angle(DIRECTION)` is its heading.",
-        task: "Move the base along the tangent, turned by the angle of the law, and face along the tangent. The run has to come round the \
-               disk.",
+               direction of the contour at the tip. `if CONDITION { … }` executes statements only while it holds. \
+               `steer r0 along DIRECTION at SPEED facing HEADING` moves the base of the whisker and turns the body. \
+               `rotate(DIRECTION, ANGLE)` turns a direction, and `angle(DIRECTION)` is its heading. The law of this policy is the angle \
+               `30 deg * clamp(too_much, -1, 1)`: away from the disk if the whisker is bent too much, and towards it if too little.",
+        task: "While `r0.contour.ready` holds, steer `r0` along the tangent rotated by the angle of the law, facing the angle of the \
+               tangent. This replaces the statement `steer body`. The run has to come round the disk.",
         scene: "disk",
         policy: include_str!("../lessons/3.fsm"),
         solution: include_str!("../lessons/3-solution.fsm"),
@@ -84,9 +87,9 @@ pub(crate) const LESSONS: [Lesson; 5] = [
     },
     Lesson {
         title: "Change parameters",
-        text: "A `param` has a unit and a range. The sliders beside the editor set it for a run, and a number of the text changes it for \
-               good. The score shows what a change costs.",
-        task: "Come round the disk within 30 s, with a mean error below 0.01 mm.",
+        text: "A `param` has a unit and a range. The sliders under Parameters below the editor set it for a run, and moving one runs at \
+               once. A number of the text changes it for good. The score shows what a change costs.",
+        task: "Come round the disk within 30 s, with a mean error of at most 10 um.",
         scene: "disk",
         policy: include_str!("../lessons/4.fsm"),
         solution: include_str!("../lessons/4-solution.fsm"),
@@ -96,8 +99,10 @@ pub(crate) const LESSONS: [Lesson; 5] = [
     Lesson {
         title: "Use the standard library",
         text: "At a corner the whisker loses the object. The behaviour `trace_object` of the standard library finds the next surface. A \
-               state that `is` a behaviour has to say where each exit of it leads: `on EXIT -> TARGET`.",
-        task: "The exit `closed(w, away)` is missing. Let it end the run in success, and trace the box.",
+               state that `is` a behaviour has to say where each exit of it leads: `on EXIT -> TARGET`. An exit may pass values on: `w` \
+               is the whisker that followed the object, and `away` the direction from its surface to the body.",
+        task: "The exit `closed(w, away)` is missing. Write its line below the other exits of `Tracing`, let it end the run in success, \
+               and trace the box.",
         scene: "box",
         policy: include_str!("../lessons/5.fsm"),
         solution: include_str!("../lessons/5-solution.fsm"),

@@ -15,7 +15,7 @@ export class Controls implements Panel {
   readonly element: HTMLElement;
   readonly #actions: Actions;
   readonly #up: () => void;
-  readonly #title = element("h1", "", "vibrissa");
+  readonly #title: HTMLElement;
   readonly #status = element("p", "status");
   readonly #fault = element("p", "fault");
   readonly #pause: HTMLButtonElement;
@@ -27,9 +27,10 @@ export class Controls implements Panel {
   readonly #gaps = element("p", "hint");
   #view: View | undefined;
 
-  /** `up` goes to the outer state in the chart. */
-  constructor(actions: Actions, up: () => void) {
+  /** `up` goes to the outer state in the chart. `heading` is the element of the title. */
+  constructor(actions: Actions, up: () => void, heading: "h1" | "h2") {
     [this.#actions, this.#up] = [actions, up];
+    this.#title = element(heading, "", "vibrissa");
     this.#pause = button("pause", () => this.#toggle(), "pause or continue the run (key P)");
     this.#step = button("step", () => this.#advance(1), "execute one tick (key S)");
     this.#steps = button("30 ticks", () => this.#advance(30), "execute 30 ticks (key Shift S)");

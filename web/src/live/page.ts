@@ -42,7 +42,7 @@ export class Page implements Actions {
   constructor(root: HTMLElement, connect: Connect = (receive, change) => new Connection(receive, change), stage?: HTMLElement) {
     this.#stage = stage;
     this.#root = root;
-    this.#controls = new Controls(this, () => this.#chart?.up());
+    this.#controls = new Controls(this, () => this.#chart?.up(), stage === undefined ? "h1" : "h2");
     (stage ?? root).replaceChildren(this.#controls.element);
     this.#connection = connect(
       (message) => this.#receive(message),

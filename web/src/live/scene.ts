@@ -23,7 +23,7 @@ export class Scene implements Panel {
   readonly #world = new World();
   /** The largest distance (m) of a part of the robot from its centre. */
   readonly #reach: number;
-  readonly #svg = svg("svg", { viewBox: "0 0 100 100" });
+  readonly #svg = svg("svg", { viewBox: "0 0 100 100", "aria-hidden": "true" });
   readonly #objects = svg("path", { class: "objects" });
   readonly #track: Track;
   readonly #otherTrace = svg("path", { class: "trace other" });

@@ -13,6 +13,8 @@ export class Editor {
   readonly view: EditorView;
 
   constructor(parent: HTMLElement, label: string, changed: (text: string) => void, extensions: Extension[]) {
+    const keys = element("p", "hint", "Tab indents; Esc, then Tab leaves. Ctrl+Enter runs.");
+    keys.id = `${label}-keys`;
     const told = EditorView.updateListener.of((update) => {
       if (update.docChanged) {
         changed(update.state.doc.toString());
@@ -23,14 +25,14 @@ export class Editor {
       state: EditorState.create({
         extensions: [
           lineNumbers(), history(), drawSelection(), indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine(),
-          indentUnit.of("  "), EditorView.lineWrapping, EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false" }),
+          indentUnit.of("  "), EditorView.lineWrapping, EditorView.contentAttributes.of({ "aria-label": label, "aria-describedby": keys.id, spellcheck: "false" }),
           ...extensions,
-          // The key Escape and then Tab leave the editor.
           keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
           told,
         ],
       }),
     });
+    parent.after(keys);
   }
 
   get text(): string {

@@ -52,11 +52,17 @@ export class Language {
 
   /** Begins with a text, also in a new worker. */
   open(text: string): void {
-    this.#waiting.forEach((resolve) => resolve(null));
-    this.#waiting.clear();
-    this.#changed = undefined;
+    this.close();
     void this.#ask("initialize", { processId: null, rootUri: null, capabilities: {} });
     this.#tell("textDocument/didOpen", { textDocument: { uri: DOCUMENT, languageId: "fsm", version: (this.#version += 1), text } });
+  }
+
+  /** Answers all questions with nothing, and forgets a change: nobody is there to be asked. */
+  close(): void {
+    this.#waiting.forEach((resolve) => resolve(null));
+    this.#waiting.clear();
+    clearTimeout(this.#timer);
+    this.#changed = undefined;
   }
 
   /** Sends a changed text, as soon as it has not changed for a while or a question needs it. */

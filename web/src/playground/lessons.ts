@@ -1,55 +1,65 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
+import { shortfalls } from "./figures.ts";
 import type { Lesson, Result } from "./messages.ts";
-import { figure } from "./score.ts";
 
 /** The steps that teach the language. One of them is shown, or none. */
 export class Lessons {
   readonly element = element("section", "lessons");
   readonly #lessons: readonly Lesson[];
   readonly #open: (policy: string, scene: string) => void;
+  readonly #started = element("div", "tools");
   readonly #body = element("div");
   readonly #verdict = element("p", "lesson-verdict");
   readonly #steps: HTMLButtonElement[];
   readonly #done = new Set<Lesson>();
   #shown: Lesson | undefined;
 
-  /** `open` shows the policy of a step in its scene. */
+  /** `open` shows the policy of a step in its scene and runs it. */
   constructor(lessons: readonly Lesson[], open: (policy: string, scene: string) => void) {
     [this.#lessons, this.#open] = [lessons, open];
-    this.#steps = lessons.map((lesson, index) => button(String(index + 1), () => this.#show(this.#shown === lesson ? undefined : lesson), `step ${index + 1}: ${lesson.title}`));
+    this.#steps = lessons.map((lesson, index) => button(String(index + 1), () => this.#show(this.#shown === lesson ? undefined : lesson), `${index + 1}: ${lesson.title}`));
     this.#verdict.setAttribute("role", "status");
     this.element.append(element("div", "head", element("h2", "", "Learn the language"), element("div", "tools", ...this.#steps)), this.#body);
-    this.#mark();
+    const first = button("Start with step 1", () => this.#show(lessons[0]));
+    first.className = "primary";
+    this.#started.append(first);
+    this.#show(undefined);
   }
 
-  /** Checks the task of the shown step after a run. */
-  check(result: Result): void {
+  /** Checks the task of the shown step after a run. `isOfReader` is true if the reader has changed something or has started the run. */
+  check(result: Result, isOfReader: boolean): void {
     const lesson = this.#shown;
     if (lesson === undefined) {
       return;
     }
-    const missing = lesson.bounds.find(({ figure: path, least, most }) => {
-      const value = figure(result, path);
-      return typeof value !== "number" || value < (least ?? -Infinity) || value > (most ?? Infinity);
-    });
-    const isDone = missing === undefined && lesson.outcomes.includes(result.outcome);
+    const missing = shortfalls(result, lesson.bounds);
+    const ended = `the outcome is ${result.outcome}${result.reason === null ? "" : ` (${result.reason})`}`;
+    // Also where any outcome will do, a failure is often the cause of the rest.
+    const causes = lesson.outcomes.includes(result.outcome) && result.outcome !== "failed" ? missing : [ended, ...missing];
+    const isDone = missing.length === 0 && lesson.outcomes.includes(result.outcome);
     if (isDone) {
       this.#done.add(lesson);
     }
-    const bound = missing === undefined ? "" : `: ${missing.figure} has to be ${missing.least === undefined ? `at most ${missing.most}` : `at least ${missing.least}`}`;
-    this.#verdict.textContent = isDone ? "Done." : `Not yet${bound || `: the run is ${result.outcome}`}.`;
+    // That the policy with which a step begins does not do the task is no fault of the reader.
+    this.#verdict.textContent = isDone ? "Done." : isOfReader ? `Not yet: ${causes.join("; ")}.` : "";
     this.#verdict.classList.toggle("done", isDone);
     this.#mark();
   }
 
-  #show(lesson: Lesson | undefined): void {
-    this.#shown = lesson;
+  /** Forgets the verdict: a run begins, or its text is another one now. */
+  forget(): void {
     this.#verdict.textContent = "";
     this.#verdict.classList.remove("done");
+  }
+
+  #show(lesson: Lesson | undefined): void {
+    this.#shown = lesson;
+    this.forget();
     this.#body.replaceChildren();
     this.#mark();
     if (lesson === undefined) {
+      this.#body.append(this.#started);
       return;
     }
     const next = this.#lessons[this.#lessons.indexOf(lesson) + 1];

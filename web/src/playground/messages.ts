@@ -79,7 +79,8 @@ export type Question =
 
 /** A message from the page to its worker. */
 export type ToWorker =
-  | { type: "start"; start: Start; speed: number }
+  /** `run` is the number of the run, which is in the answers. */
+  | { type: "start"; run: number; start: Start; speed: number }
   | { type: "stop" }
   | { type: "speed"; speed: number }
   | { type: "live"; message: PageMessage }
@@ -93,9 +94,11 @@ export type FromWorker =
   | { type: "live"; message: ServerMessage }
   | { type: "language"; messages: LanguageMessage[] }
   | { type: "answered"; id: number; answer: unknown; error: string | undefined }
-  | { type: "refused"; error: string }
-  | { type: "scored"; result: Result; picture: string; realtime: number }
+  | { type: "refused"; run: number; error: string }
+  | { type: "scored"; run: number; result: Result; picture: string; realtime: number }
   | { type: "compared"; scenario: string; policy: string; result: Result | undefined }
+  /** A message of the page has been answered as far as it is at once. */
+  | { type: "taken" }
   | { type: "alive" }
   | { type: "broken"; error: string };
 

@@ -18,7 +18,7 @@ export class Parameters {
     const reset = button("values of the text", () => this.clear(), "restore all values of the text");
     // In a narrow window, they would be between the policy and its run.
     this.element.open = matchMedia("(min-width: 761px)").matches;
-    this.element.append(element("summary", "", "Parameters"), element("div", "table", element("table", "", this.#body)), element("div", "tools", reset));
+    this.element.append(element("summary", "", "Parameters"), element("div", "table", element("table", "", element("caption", "", "Moving a slider runs at once."), this.#body)), element("div", "tools", reset));
     this.element.hidden = true;
   }
 

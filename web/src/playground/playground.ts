@@ -5,7 +5,7 @@ import { button } from "../shared/button.ts";
 import { download, fileName } from "../shared/download.ts";
 import { element } from "../shared/element.ts";
 import { Editor, services } from "./editor.ts";
-import { Language } from "./language.ts";
+import { Language, type Problem } from "./language.ts";
 import { Lessons } from "./lessons.ts";
 import { decode, encode } from "./link.ts";
 import type { BuiltIn, Catalog, Change, Drawn, FromWorker, Question, Result, Shape, Start } from "./messages.ts";
@@ -20,10 +20,21 @@ import { policySyntax, scenarioSyntax } from "./syntax.ts";
 const SPEEDS: readonly [speed: number, name: string][] = [[1, "real time"], [5, "5 times"], [20, "20 times"], [Infinity, "as fast as possible"]];
 /** The time (ms) after the last change of a slider or of a shape before the run begins again. */
 const PAUSE = 150;
+/** The largest number of listed diagnostics. */
+const LISTED = 20;
+
+/** A run that was asked for. */
+interface Running {
+  number: number;
+  start: Start;
+  /** True if the reader has started it or has changed something. */
+  isOfReader: boolean;
+}
 
 /** The playground: editors, the run, and its score. */
 export class Playground {
   readonly #root: HTMLElement;
+  readonly #loading: Element | null;
   readonly #simulator: Simulator;
   readonly #language: Language;
   readonly #parameters = new Parameters(() => this.#runSoon());
@@ -33,7 +44,10 @@ export class Playground {
   readonly #fault = element("pre", "fault");
   readonly #notice = element("p", "notice");
   readonly #problems = element("p", "hint problems");
+  readonly #listed = element("ul", "listed");
   readonly #saves = element("div", "tools");
+  readonly #results = [button("result", () => this.#save("json"), "download the result as JSON"), button("picture", () => this.#save("svg"), "download the picture of the run")];
+  readonly #outdated = element("span", "hint", "Result and picture are from the previous text. Run the present one to save them.");
   readonly #run: HTMLButtonElement;
   readonly #shapes = new Shapes((change) => this.#reshape(change));
   #lessons: Lessons | undefined;
@@ -45,12 +59,13 @@ export class Playground {
   #compared = "";
   /** The speed (m/s) that belongs to a drawn scene. */
   #drawn: { speed?: number } = {};
-  #running = { policy: "", scenario: "" };
-  #last: { result: Result; picture: string } | undefined;
+  /** The newest run. Answers of earlier ones come too late. */
+  #running: Running = { number: 0, start: { policy: "", scenario: "", set: {} }, isOfReader: false };
+  #last: { result: Result; picture: string; start: Start } | undefined;
   #timer: number | undefined;
 
   constructor(root: HTMLElement) {
-    this.#root = root;
+    [this.#root, this.#loading] = [root, root.querySelector(".loading")];
     this.#language = new Language(
       (message) => this.#simulator.send({ type: "language", message }),
       (problems, version) => {
@@ -58,15 +73,25 @@ export class Playground {
           this.#policy?.show(problems);
           const errors = problems.filter(({ severity }) => severity === 1).length;
           this.#problems.textContent = problems.length === 0 ? "no errors, no warnings" : `${count(errors, "error")}, ${count(problems.length - errors, "warning")}`;
+          this.#list(problems);
         }
       },
     );
     this.#run = button("run", () => this.#start(), "simulate the policy in the scene (Ctrl+Enter)");
-    this.#simulator = new Simulator((message) => this.#hear(message), (reason) => {
+    this.#simulator = new Simulator((message) => this.#hear(message), () => this.#language.open(this.#policy?.text ?? ""), (reason) => {
       this.#tell(reason);
-      this.#language.open(this.#policy?.text ?? "");
+      this.#language.close();
       this.#receive({ type: "status", state: "finished", reason, breakpoint: null, verdict: "stopped", metrics: null, ticks: 0, kept_every: 1, breakpoints: [] });
     });
+  }
+
+  /** Lists diagnostics below the editor. */
+  #list(problems: readonly Problem[]): void {
+    const items = problems.slice(0, LISTED).map(({ range, severity, message }) => element("li", severity === 1 ? "error" : "", `${severity === 1 ? "error" : "warning"} in line ${range.start.line + 1}: ${message}`));
+    if (problems.length > LISTED) {
+      items.push(element("li", "", `${problems.length - LISTED} more`));
+    }
+    this.#listed.replaceChildren(...items);
   }
 
   #hear(message: FromWorker): void {
@@ -84,19 +109,22 @@ export class Playground {
         this.#receive(message.message);
         break;
       case "language": this.#language.receive(message.messages); break;
-      case "refused": this.#fault.textContent = message.error; break;
+      case "refused":
+        if (message.run === this.#running.number) {
+          this.#fault.textContent = message.error;
+        }
+        break;
       case "scored":
-        this.#last = { result: message.result, picture: message.picture };
-        this.#saves.hidden = false;
-        this.#score.own(message.result, message.realtime);
-        this.#lessons?.check(message.result);
-        this.#compare();
+        if (message.run === this.#running.number) {
+          this.#finish(message.result, message.picture, message.realtime);
+        }
         break;
       case "compared":
         if (message.scenario === this.#compared) {
           this.#score.other(message.policy, message.result);
         }
         break;
+      case "taken":
       case "alive":
       case "broken":
       case "answered":
@@ -125,7 +153,8 @@ export class Playground {
       button("copy link", () => void this.#share(), "copy a link that holds policy, scenario and parameters"));
     this.#saves.append(
       button("policy", () => this.#save("fsm"), "download the policy"), button("scenario", () => this.#save("yaml"), "download the scenario"),
-      button("result", () => this.#save("json"), "download the result as JSON"), button("picture", () => this.#save("svg"), "download the picture of the run"));
+      ...this.#results, this.#outdated);
+    this.#outdated.hidden = true;
     this.#saves.hidden = true;
     this.#saves.prepend(element("span", "hint", "Download:"));
     this.#fault.setAttribute("role", "alert");
@@ -134,25 +163,29 @@ export class Playground {
     const scenarioBox = element("div", "editor");
     this.#lessons = new Lessons(catalog.lessons ?? [], (policy, scene) => {
       this.#load(policy, scenes.named(scene) ?? "");
-      this.#start();
+      this.#start(false);
     });
     const details = element("details", "", element("summary", "", "Scenario"), scenarioBox);
     this.#shapes.element.addEventListener("toggle", () => void this.#showShapes());
     const live = element("div", "live");
-    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#fault, this.#shapes.element, details, this.#parameters.element);
+    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#listed, this.#fault, this.#shapes.element, details, this.#parameters.element);
     const right = element("div", "column", scene, this.#score.element, this.#saves);
-    this.#root.replaceChildren(
-      element("header", "bar", element("p", "brand", "Vibrissa playground"), element("div", "choices", scenes.element, templates, speeds), tools, this.#notice),
+    // The introduction is part of the document, so that there is something to read before the module is there.
+    this.#loading?.remove();
+    this.#root.append(
+      element("header", "bar", element("div", "choices", scenes.element, templates, speeds), tools, this.#notice),
       element("div", "bench", left, right), live);
     this.#policy = new Editor(policyBox, "policy", (text) => {
       if (this.#catalog?.templates[Number(this.#template.value)]?.text !== text) {
         this.#template.value = String(known.length);
       }
       this.#language.change(text);
+      this.#date();
     }, [policySyntax(words), ...services(this.#language)]);
     this.#scenario = new Editor(scenarioBox, "scenario", (text) => {
       scenes.show(text);
       void this.#showShapes();
+      this.#date();
     }, [scenarioSyntax()]);
     this.#language.open("");
     new Page(live, (receive): Peer => {
@@ -168,7 +201,7 @@ export class Playground {
     addEventListener("hashchange", () => void this.#openLink().then((isOpen) => isOpen || this.#refuseLink()));
     if (!(await this.#openLink())) {
       this.#load(policies[0]?.text ?? "", scenarios[0]?.text ?? "");
-      this.#start();
+      this.#start(false);
       this.#refuseLink();
     }
   }
@@ -274,26 +307,53 @@ export class Playground {
     this.#timer = setTimeout(() => this.#start(), PAUSE);
   }
 
-  #start(): void {
+  #start(isOfReader = true): void {
     clearTimeout(this.#timer);
-    const start = this.#texts();
-    this.#running = start;
+    const [number, start] = [this.#running.number + 1, this.#texts()];
+    this.#running = { number, start, isOfReader };
     this.#fault.textContent = "";
     this.#tell("");
-    this.#simulator.send({ type: "start", start, speed: this.#pace() });
+    this.#lessons?.forget();
+    this.#date();
+    this.#simulator.send({ type: "start", run: number, start, speed: this.#pace() });
+  }
+
+  /** Shows the end of the newest run. */
+  #finish(result: Result, picture: string, realtime: number): void {
+    const { start, isOfReader } = this.#running;
+    this.#last = { result, picture, start };
+    this.#saves.hidden = false;
+    this.#score.own(result, realtime);
+    this.#date();
+    // A text that was changed during its run has no verdict.
+    if (isSame(start, this.#texts())) {
+      this.#lessons?.check(result, isOfReader);
+    }
+    this.#compare();
+  }
+
+  /** Tells whether the last result is one of the present texts. Only then it can be saved. */
+  #date(): void {
+    const isPast = this.#last !== undefined && !isSame(this.#last.start, this.#texts());
+    this.#score.date(isPast);
+    this.#results.forEach((save) => { save.disabled = isPast; });
+    this.#outdated.hidden = !isPast;
+    if (isPast) {
+      this.#lessons?.forget();
+    }
   }
 
   #begin(hello: Hello): void {
     this.#shapes.begin(hello);
     this.#parameters.show(hello.parameters.filter(({ guard }) => guard === null));
-    if (this.#compared !== this.#running.scenario) {
+    if (this.#compared !== this.#running.start.scenario) {
       this.#score.clear();
     }
   }
 
   /** Runs the policies of the program in the scene, unless their figures are there already. */
   #compare(): void {
-    this.#compared = this.#running.scenario;
+    this.#compared = this.#running.start.scenario;
     const missing = (this.#catalog?.policies ?? []).map(({ name }) => name).filter((name) => !this.#score.has(name));
     if (missing.length > 0) {
       this.#simulator.send({ type: "compare", scenario: this.#compared, policies: missing, set: { ...this.#drawn } });
@@ -315,12 +375,22 @@ export class Playground {
     const { result, picture } = this.#last ?? {};
     const contents = { fsm: policy, yaml: scenario, json: JSON.stringify(result, null, 2), svg: picture ?? "" };
     const types = { fsm: "text/plain", yaml: "text/plain", json: "application/json", svg: "image/svg+xml" };
-    download(fileName(result?.policy ?? "policy", extension), types[extension], contents[extension]);
+    // The reader may have changed the text since the run.
+    const name = (extension === "yaml" ? /^name:\s*(.+)$/m.exec(scenario) : /^\s*machine\s+(\w+)/m.exec(policy))?.[1];
+    download(fileName(name ?? (extension === "yaml" ? "scenario" : "policy"), extension), types[extension], contents[extension]);
   }
 
   #tell(text: string): void {
     this.#notice.textContent = text;
+    if (this.#catalog === undefined && this.#loading !== null) {
+      this.#loading.textContent = text;
+    }
   }
+}
+
+/** True if two runs have the same texts and values, and therefore the same result. */
+function isSame(a: Start, b: Start): boolean {
+  return a.policy === b.policy && a.scenario === b.scenario && JSON.stringify(a.set) === JSON.stringify(b.set);
 }
 
 function count(number: number, noun: string): string {

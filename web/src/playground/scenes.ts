@@ -33,7 +33,8 @@ export class Scenes {
       group("bench", scenarios.filter((scenario) => !isOfZoo(scenario)).map(option)),
       group("zoo", scenarios.filter(isOfZoo).map(option)),
       group("random", families.map(({ name, about }) => {
-        const option = new Option(name, FAMILY + name);
+        // Some have the name of a scene.
+        const option = new Option(`${name} (random)`, FAMILY + name);
         option.title = about;
         return option;
       })),

@@ -22,18 +22,21 @@ export function policySyntax(words: Record<string, string[]>): Extension {
     const style = STYLES.find(([start]) => scope.startsWith(start))?.[1];
     texts.forEach((text) => style !== undefined && styles.set(text, style));
   }
-  const language = StreamLanguage.define<null>({
-    startState: () => null,
-    token: (stream) => {
+  const language = StreamLanguage.define<{ depth: number }>({
+    startState: () => ({ depth: 0 }),
+    token: (stream, state) => {
       if (stream.match(/^#.*/)) { return "comment"; }
       if (stream.match(/^"(?:[^"\\]|\\.)*"?/)) { return "string"; }
       if (stream.match(/^\d+(?:\.\d+)?(?:e[+-]?\d+)?/)) { return "number"; }
       const word = stream.match(/^[A-Za-z_][A-Za-z_0-9]*/) as RegExpMatchArray | null;
       if (word) { return styles.get(word[0]) ?? null; }
-      stream.next();
+      const letter = stream.next();
+      state.depth = Math.max(0, state.depth + (letter === "{" ? 1 : letter === "}" ? -1 : 0));
       return null;
     },
-    languageData: { commentTokens: { line: "#" }, closeBrackets: { brackets: ["{", "(", "\""] } },
+    indent: ({ depth }, after, { unit }) => unit * Math.max(0, depth - (after.startsWith("}") ? 1 : 0)),
+    // A brace that the editor had closed would not be typed over on a later line.
+    languageData: { commentTokens: { line: "#" }, closeBrackets: { brackets: ["(", "\""] }, indentOnInput: /^\s*\}$/ },
     tokenTable: { unit: tags.unit, function: tags.standard(tags.name), definitionKeyword: tags.definitionKeyword, controlKeyword: tags.controlKeyword, operatorKeyword: tags.operatorKeyword, typeName: tags.typeName, atom: tags.atom, self: tags.self },
   });
   return [language, colours];

@@ -31,7 +31,6 @@ interface Scored {
   result: Result;
   picture: string;
   verdict: string;
-  reason: string | null;
   metrics: Metrics;
 }
 
@@ -47,6 +46,7 @@ class Worker {
   #pace: [number, number] = [0, 0];
   /** Wall time (ms) that the simulation has taken. */
   #used = 0;
+  /** The number that the page has given to the run. */
   #run = 0;
   /** True if the first comparison has begun. */
   #isComparing = false;
@@ -67,7 +67,7 @@ class Worker {
 
   receive(message: ToWorker): void {
     switch (message.type) {
-      case "start": this.#start(message.start, message.speed); break;
+      case "start": this.#start(message.run, message.start, message.speed); break;
       case "stop": this.#stop(); break;
       case "speed":
         this.#speed = message.speed;
@@ -94,8 +94,9 @@ class Worker {
     }
   }
 
-  #start({ scenario, policy, set }: Start, speed: number): void {
+  #start(run: number, { scenario, policy, set }: Start, speed: number): void {
     [this.#comparisons, this.#isComparing] = [[], false];
+    this.#run = run;
     this.#state = "finished";
     let hello: Hello;
     try {
@@ -104,10 +105,10 @@ class Worker {
       if (!(fault instanceof Refusal)) {
         throw fault;
       }
-      scope.postMessage({ type: "refused", error: fault.message });
+      scope.postMessage({ type: "refused", run, error: fault.message });
       return;
     }
-    hello.run = this.#run += 1;
+    hello.run = run;
     this.#broken = hello.breakpoints;
     this.#question = undefined;
     [this.#state, this.#ticks, this.#time, this.#speed, this.#used] = ["running", 0, 0, speed, 0];
@@ -213,10 +214,11 @@ class Worker {
     this.#used += performance.now() - before;
     scope.postMessage({ type: "live", message: { type: "ticks", lost: 0, frames } });
     if (hasEnded) {
-      const { result, picture, verdict, reason, metrics } = this.#machine.ask<Scored>({ type: "score" });
+      const { result, picture, verdict, metrics } = this.#machine.ask<Scored>({ type: "score" });
       this.#state = "finished";
-      this.#status({ verdict, reason, metrics });
-      scope.postMessage({ type: "scored", result, picture, realtime: (1000 * time) / Math.max(this.#used, 1) });
+      // The expectations that are not met are part of the score.
+      this.#status({ verdict, reason: result.reason, metrics });
+      scope.postMessage({ type: "scored", run: this.#run, result, picture, realtime: (1000 * time) / Math.max(this.#used, 1) });
     } else if (breakpoint !== null) {
       this.#state = "paused";
       this.#status({ reason: "breakpoint", breakpoint });
@@ -301,17 +303,22 @@ function guard(work: () => void): void {
   }
 }
 
+function receive(message: ToWorker): void {
+  worker?.receive(message);
+  scope.postMessage({ type: "taken" });
+}
+
 scope.addEventListener("message", ({ data }) => {
   if (worker === undefined) {
     waiting.push(data);
   } else {
-    guard(() => worker?.receive(data));
+    guard(() => receive(data));
   }
 });
 Machine.load("vibrissa.wasm").then(
   (machine) => guard(() => {
     worker = new Worker(machine);
-    waiting.splice(0).forEach((message) => worker?.receive(message));
+    waiting.splice(0).forEach(receive);
   }),
   (fault: unknown) => scope.postMessage({ type: "broken", error: String(fault) }),
 );
