@@ -212,6 +212,10 @@ fn given(arguments: &RunArguments) -> impl Iterator<Item = (&'static str, bool, 
     .into_iter()
 }
 
+/// What draws a video of a run into its file, and what watches the run for it.
+#[cfg(feature = "render")]
+type Video = ((Output, Studio), Film);
+
 #[cfg(feature = "render")]
 impl VideoOutputs {
     fn new(arguments: &RunArguments, prepared: &[Prepared], files: &mut CommandFiles) -> Result<Option<Self>, Failure> {
@@ -236,8 +240,8 @@ impl VideoOutputs {
         Ok(Some(Self { format, settings, files: files.into_iter() }))
     }
 
-    /// What draws the video of the next run, and what watches the run for it.
-    fn next(&mut self, trial: &Trial) -> Option<Result<((Output, Studio), Film), Failure>> {
+    /// The video of the next run.
+    fn next(&mut self, trial: &Trial) -> Option<Result<Video, Failure>> {
         let file = self.files.next()?;
         let studio = Studio::new(&trial.scene, self.format, self.settings).map_err(of_video(file.path()));
         Some(studio.map(|studio| ((file, studio), Film::new(&self.settings))))

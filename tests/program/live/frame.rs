@@ -191,7 +191,10 @@ fn a_page_knows_the_start_pose_before_the_first_tick() {
         if words[0] == "replay" {
             let frames = all_frames(&mut page);
             let is_timed = |frame: &Value| !frame["loop"].is_null();
-            assert!(!frames.is_empty() && !frames.iter().any(is_timed), "wall times of a replay are those of another computer");
+            assert!(
+                !frames.is_empty() && !frames.iter().any(is_timed),
+                "wall times of a replay are those of another computer"
+            );
         }
     }
 }

@@ -77,7 +77,8 @@ type GetPlatformDisplay = unsafe extern "C" fn(c_uint, Handle, *const c_int) -> 
 pub(super) struct Context {
     display: Handle,
     surface: Handle,
-    context: Handle,
+    /// The OpenGL context itself.
+    handle: Handle,
     functions: Functions,
     /// Never unloaded: drivers keep threads of their own.
     _library: ManuallyDrop<Library>,
@@ -95,8 +96,8 @@ impl Context {
         let mut reason = "EGL has no device".to_owned();
         for device in devices {
             match functions.on_device(device, platform_display) {
-                Ok([display, surface, context]) => {
-                    return Ok(Self { display, surface, context, functions, _library: library });
+                Ok([display, surface, handle]) => {
+                    return Ok(Self { display, surface, handle, functions, _library: library });
                 }
                 Err(of_device) => reason = of_device,
             }
@@ -111,7 +112,7 @@ impl Context {
     pub(super) fn make_current(&self) -> Result<(), String> {
         #[expect(unsafe_code, reason = "a function of EGL")]
         // SAFETY: the handles are those of `on_device`, and nothing has destroyed them.
-        let made = unsafe { (self.functions.make_current)(self.display, self.surface, self.surface, self.context) };
+        let made = unsafe { (self.functions.make_current)(self.display, self.surface, self.surface, self.handle) };
         if made == 0 { Err(self.functions.failure("eglMakeCurrent")) } else { Ok(()) }
     }
 }
@@ -125,7 +126,7 @@ impl Drop for Context {
         unsafe {
             (egl.make_current)(self.display, none, none, none);
             (egl.destroy_surface)(self.display, self.surface);
-            (egl.destroy_context)(self.display, self.context);
+            (egl.destroy_context)(self.display, self.handle);
         }
     }
 }

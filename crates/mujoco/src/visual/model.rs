@@ -20,6 +20,7 @@ const SQUARE: f64 = 0.1;
 const ABOVE: f64 = 1e-3;
 
 /// The height (m) at which strokes are above all objects.
+#[must_use]
 pub fn top(physics: &Physics) -> f64 {
     half_height(physics) + ABOVE
 }

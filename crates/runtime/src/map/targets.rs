@@ -242,9 +242,7 @@ impl Targets {
         let distance = (target.pose.position - body.position).norm();
         if is_counted && distance > LEFT {
             self.pursued = Some(Pursued { target, is_counted: false });
-        } else if !is_counted
-            && distance < NEAR
-            && turn_between(body.heading, target.pose.heading).abs() < NEAR_HEADING
+        } else if !is_counted && distance < NEAR && turn_between(body.heading, target.pose.heading).abs() < NEAR_HEADING
         {
             self.pursued = Some(Pursued { target, is_counted: true });
             self.count_attempt(&target, frontier, grid);

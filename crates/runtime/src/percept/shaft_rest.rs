@@ -334,7 +334,7 @@ mod tests {
 
     #[test]
     fn a_tip_is_sure_after_the_path_on_which_the_largest_possible_error_fades() {
-        let left = |path: f64| FLAT * (-path / FADING).exp();
+        let left = |path: f64| FLAT * math::exp(-path / FADING);
         assert!(left(SURE_AFTER) < MAX_POSSIBLE_ERROR && left(SURE_AFTER - 1e-3) > MAX_POSSIBLE_ERROR);
     }
 
