@@ -11,7 +11,7 @@ use super::drawing::{Drawing, MOST_SEGMENTS};
 use super::egl::Context;
 use super::model::VisualModel;
 
-/// Room in a scene for what MuJoCo adds to the geoms of its model.
+/// Capacity of a scene for what MuJoCo adds to the geoms of its model.
 const OF_MUJOCO: usize = 100;
 /// Bytes of a pixel: red, green and blue.
 const PIXEL: usize = 3;

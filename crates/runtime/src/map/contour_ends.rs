@@ -215,7 +215,7 @@ mod tests {
         }
     }
 
-    /// Records a straight piece between two places, felt from a side.
+    /// Records a straight piece between two positions, felt from a side.
     fn straight(contours: &mut Contours, from: Point2, to: Point2, side: Vector2) {
         for step in 0..=400 {
             let place = from + f64::from(step) / 400.0 * (to - from);
@@ -246,7 +246,7 @@ mod tests {
             prop_assert!(found[0] == EndKind::Open && found[3] == EndKind::Open);
         }
 
-        /// Two pieces whose lines meet, but of which one faces the other way, are not one surface.
+        /// Two pieces whose lines meet, but of which one faces the other direction, are not one surface.
         #[test]
         fn a_piece_that_faces_the_other_way_joins_no_corner(turn in 0.5..2.5_f64, behind in 9e-3..60e-3_f64) {
             let mut contours = Contours::new(1);

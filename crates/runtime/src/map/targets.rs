@@ -64,7 +64,7 @@ const BETTER: f64 = 1.5;
 const FAILURES: u8 = 3;
 /// Cosine of the largest angle between the normals of the same end at two times.
 const SAME_NORMAL: f64 = 0.5;
-/// Most places whose attempts are remembered. The oldest is forgotten.
+/// Most positions whose attempts are remembered. The oldest is forgotten.
 const MOST_ATTEMPTS: usize = 256;
 /// Most blocks of the frontier whose poses are tried in a tick, also with a guarded nose, where a block has one pose. Then the headings for
 /// each whisker.
