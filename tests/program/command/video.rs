@@ -310,21 +310,21 @@ fn what_cannot_be_written_is_refused_before_the_run() {
     }
 }
 
-/// As the pictures of `--out`, each video has the name of its scenario, also one with a point.
+/// As the pictures of `--out`, each video has the name of its scenario.
 #[test]
 fn several_runs_have_a_video_each_in_the_folder_of_their_reports() {
     if !can_draw() {
         return;
     }
     let folder = folder("video-several", 1.0);
-    fs::write(folder.join("other.yaml"), scene(2.0).replace("name: scene", "name: turn.90")).unwrap();
+    fs::write(folder.join("other.yaml"), scene(2.0).replace("name: scene", "name: turn-90")).unwrap();
     let words = "@/other.yaml --out @/out --video-size 64x64 --video-rate 20 --video-speed 1";
     let output = run(&folder, &format!("{words} --video gif"));
     assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(&output));
     let of = |name: &str| fs::read(folder.join("out").join(name)).unwrap();
-    let lengths = ["scene.gif", "turn.90.gif"].map(|name| shown(&of(name)).length);
+    let lengths = ["scene.gif", "turn-90.gif"].map(|name| shown(&of(name)).length);
     assert!((0.9..1.2).contains(&lengths[0]) && (1.9..2.2).contains(&lengths[1]), "{lengths:?}");
-    for name in ["scene.svg", "turn.90.svg", "index.html"] {
+    for name in ["scene.svg", "turn-90.svg", "index.html"] {
         assert!(folder.join("out").join(name).exists(), "{name}");
     }
     // One of them alone is the same.
@@ -339,7 +339,7 @@ fn several_runs_have_a_video_each_in_the_folder_of_their_reports() {
         let output = command.arg(folder.join(format)).current_dir(ROOT).env("PATH", "/nonexistent").output().unwrap();
         let code = output.status.code().map(|code| if code == 1 { 0 } else { code });
         assert_eq!(code, Some(status), "{}", stderr(&output));
-        assert_eq!(folder.join(format).join(format!("turn.90.{format}")).exists(), status == 0);
+        assert_eq!(folder.join(format).join(format!("turn-90.{format}")).exists(), status == 0);
         assert_eq!(stdout(&output).is_empty(), status == 2);
         assert_eq!(stderr(&output).contains("install it, or write a .gif"), status == 2, "{}", stderr(&output));
     }

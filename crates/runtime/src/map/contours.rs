@@ -131,10 +131,7 @@ impl Contours {
     /// The point of a piece at a path (m) before one of its ends, or the farthest one of a shorter piece.
     pub(super) fn before(&self, piece: usize, end: End, path: f64) -> Option<&Stored> {
         let own = self.points.iter().filter(|point| usize::from(point.piece) == piece);
-        let count = usize::try_from(self.pieces.get(piece)?.count).ok()?;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a path has at most all points")]
-        let steps = ((path / self.spacing).ceil() as usize).min(count.checked_sub(1)?);
-        own.clone().nth(if end == End::First { steps } else { count - 1 - steps })
+        if end == End::First { at_path(own, path) } else { at_path(own.rev(), path) }
     }
 
     /// Ends a tick without a recorded tip of a whisker.
@@ -235,6 +232,20 @@ impl Contours {
 #[expect(clippy::cast_possible_truncation, reason = "a direction and a standard deviation need few digits")]
 fn stored(place: Point2, deviation: f64, normal: Vector2, piece: u16) -> Stored {
     Stored { place, normal: [normal.x as f32, normal.y as f32], deviation: deviation as f32, piece }
+}
+
+/// The point at a path (m) from the first one, or the last one.
+fn at_path<'a>(mut points: impl Iterator<Item = &'a Stored>, path: f64) -> Option<&'a Stored> {
+    let mut at = points.next()?;
+    let mut left = path;
+    for point in points {
+        if left <= 0.0 {
+            break;
+        }
+        left -= (point.place - at.place).norm();
+        at = point;
+    }
+    Some(at)
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ impl Map {
     }
 
     /// Tells that the target to which the last route led could not be touched, or else the next one. After three attempts it is closed,
-    /// and so is what is near it. To come to the pose of a target is an attempt, too.
+    /// and so is what is near it. To come to the pose of an end is an attempt, too.
     pub fn fail_target(&mut self) {
         self.targets.fail(&mut self.frontier, self.cells.grid);
     }

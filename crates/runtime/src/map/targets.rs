@@ -235,10 +235,12 @@ impl Targets {
         }
     }
 
-    /// Counts an attempt when the body comes to the pose of the target that it goes to. A target that is still one afterwards, and is
+    /// Counts an attempt when the body comes to the pose of an end that it goes to. A target that is still one afterwards, and is
     /// chosen again and again, shows nothing new.
     fn arrive(&mut self, body: Pose, frontier: &mut Frontier, grid: Grid) {
-        let Some(Pursued { target, is_counted }) = self.pursued else { return };
+        // At unknown ground, the body goes on from the pose and sees more.
+        let at_end = self.pursued.filter(|pursued| pursued.target.end.is_some());
+        let Some(Pursued { target, is_counted }) = at_end else { return };
         let distance = (target.pose.position - body.position).norm();
         if is_counted && distance > LEFT {
             self.pursued = Some(Pursued { target, is_counted: false });
