@@ -170,12 +170,12 @@ fn a_whisker_that_is_forced_into_the_object_ends_the_run() {
 #[test]
 fn a_penetration_is_answered_with_shorter_steps_unless_they_are_short() {
     let advice = |step: f64, contact_time: f64| {
-        let physics = Physics { penetration_limit: 1e-5, step, contact_time, ..Physics::default() };
+        let physics = Physics { penetration_limit: 1e-6, step, contact_time, ..Physics::default() };
         let mut world = MujocoWorld::new(&Rig::default(), &physics, &disk(), START, 0).unwrap();
         samples(&mut world, &command(0.0, 0.05, 0.0), 150).unwrap_err().to_string()
     };
     let long = advice(1.0 / 300.0, 1.0 / 300.0);
-    assert!(long.contains("as `physics: {step: 1.667 ms, contact_time: 1.667 ms}`, or reduce the speed"), "{long}");
+    assert!(long.contains("as `physics: {step: 1.66667 ms, contact_time: 1.66667 ms}`, or reduce the speed"), "{long}");
     let short = advice(1.0 / 1800.0, 1.25e-3);
     assert!(short.contains("; reduce the speed: a whisker that springs round a sharp corner"), "{short}");
     assert!(!short.contains("physics"), "{short}");
