@@ -59,6 +59,7 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
         "tip",
         "tip_base",
         "tip_deviation",
+        "recorded_deviation",
         "base",
         "fitted",
         "tip_at",
