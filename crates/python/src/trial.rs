@@ -3,16 +3,19 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
+use vibrissa::geometry::Point2;
 use vibrissa::request::TrialRequest;
 use vibrissa::run::{Trace, Watcher};
 use vibrissa::scene::{Jitter, WorldKind};
+use vibrissa::score::{Estimate, coverage};
 use vibrissa::trial::ExecuteError;
 use vibrissa_runtime::machine::Observer;
 use vibrissa_runtime::signal::Sample;
 
-use crate::arrays::table;
+use crate::arrays::{Numbers, table};
 use crate::episode::Episode;
 use crate::error::error;
 use crate::input::{GivenInput, GivenPolicy, settings};
@@ -188,6 +191,30 @@ impl Trial {
         self.inner.scene.truth.reference.contours().map(outline).collect()
     }
 
+    /// The errors of tips (m, world frame) from elsewhere, such as another simulator: the distance of each from the nearest
+    /// surface of the scene.
+    fn errors<'py>(&self, tips_m: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let rows = points(&tips_m)?;
+        let surfaces = &self.inner.scene.truth.surfaces;
+        let error = |tip: Point2| if is_finite(tip) { surfaces.distance(tip) } else { f64::NAN };
+        let errors = PyArray1::from_vec(tips_m.py(), rows.map(error).collect());
+        Ok(errors.reshape(&tips_m.shape()[..tips_m.ndim() - 1])?.into_any())
+    }
+
+    /// The share of the exact outlines (0 to 1) that tips from elsewhere trace: an array (ticks, whiskers, 2) in metres, which
+    /// is not finite where nothing was recorded.
+    fn coverage(&self, tips_m: Numbers<'_>) -> PyResult<f64> {
+        let rows: Vec<Point2> = points(&tips_m)?.collect();
+        let &[_, whiskers, _] = tips_m.shape() else {
+            return Err(error("`tips_m` needs three dimensions: ticks, whiskers, and x and y"));
+        };
+        let of_whisker = |whisker| {
+            let tips = rows.iter().skip(whisker).step_by(whiskers).copied().enumerate();
+            tips.filter(|(_, tip)| is_finite(*tip))
+        };
+        Ok(coverage(&Estimate::of((0..whiskers).map(of_whisker)), &self.inner.scene.truth.reference))
+    }
+
     /// The arguments, and hashes of what they name.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let Self { arguments: Arguments { scenario, policy, options }, inner, .. } = slf.get();
@@ -217,6 +244,19 @@ impl Trial {
     fn __repr__(&self) -> String {
         format!("Trial(scenario={:?}, policy={:?}, world={:?})", self.scenario(), self.policy(), self.world())
     }
+}
+
+/// The points of an array whose last dimension is x and y (m), in the order of its rows.
+fn points<'a>(array: &'a Numbers<'_>) -> PyResult<impl Iterator<Item = Point2> + 'a> {
+    if array.shape().last() != Some(&2) {
+        return Err(error("the last dimension of `tips_m` must be 2: x and y"));
+    }
+    let numbers: Vec<f64> = array.as_array().iter().copied().collect();
+    Ok((0..numbers.len() / 2).map(move |row| Point2::new(numbers[2 * row], numbers[2 * row + 1])))
+}
+
+fn is_finite(point: Point2) -> bool {
+    point.x.is_finite() && point.y.is_finite()
 }
 
 fn world_kind(name: &str) -> PyResult<WorldKind> {

@@ -93,6 +93,23 @@ def test_recorded_tips_are_as_near_to_the_outline_as_the_figures_say():
     assert np.hypot(*(outline - [0.4, 0.4]).T) == pytest.approx(0.3, abs=1e-9)
 
 
+def test_tips_from_elsewhere_have_the_score_of_a_run():
+    trial = vibrissa.Trial("box", world="quasistatic")
+    result = trial.run()
+    tips = np.where(result.ticks["recorded"][..., None], result.ticks["tip_m"], np.nan)
+    errors = trial.errors(tips)
+    assert np.array_equal(np.isfinite(errors), result.ticks["recorded"])
+    assert np.nanmean(errors) * 1e3 == pytest.approx(result.figures["error_mm"]["mean"], rel=1e-12)
+    assert np.nanmax(errors) * 1e3 == result.figures["error_mm"]["max"]
+    assert trial.coverage(tips) == result.figures["coverage"]
+    assert trial.coverage(np.empty((0, 2, 2))) == 0
+    assert vibrissa.Trial("disk").errors([0.4, 0.8]) == pytest.approx(0.1, abs=1e-9)
+    with pytest.raises(vibrissa.Error, match="must be 2"):
+        trial.errors(np.zeros((4, 3)))
+    with pytest.raises(vibrissa.Error, match="needs three dimensions"):
+        trial.coverage(np.zeros((4, 2)))
+
+
 def test_errors_have_the_text_that_the_program_prints():
     with pytest.raises(vibrissa.Error, match=r"error\[P\d+\][^\0]*--> bad.fsm:1:"):
         vibrissa.run("disk", vibrissa.Text("machine bad  initial Nowhere", "bad.fsm"), world="quasistatic")

@@ -62,7 +62,14 @@ impl Estimate {
     /// The estimated contour of a run.
     #[must_use]
     pub fn new(trace: &Trace) -> Self {
-        let strokes: Vec<_> = whiskers(trace).flat_map(|whisker| strokes(valid_tips(trace, whisker))).collect();
+        Self::of(whiskers(trace).map(|whisker| valid_tips(trace, whisker)))
+    }
+
+    /// The estimated contour of the tips of each whisker (m, world frame). They are finite, in order, and have the indices
+    /// of their ticks.
+    #[must_use]
+    pub fn of<T: Iterator<Item = (usize, Point2)>>(tips: impl Iterator<Item = T>) -> Self {
+        let strokes: Vec<_> = tips.flat_map(strokes).collect();
         let mut all: Vec<StrokeLine> = Vec::new();
         for (stroke, points) in strokes.iter().enumerate() {
             for (from, to) in lines(points) {
