@@ -17,7 +17,7 @@ fn blocks(page: &'static str, language: &str) -> Vec<&'static str> {
 #[test]
 fn every_step_but_the_one_that_says_so_compiles_without_a_warning() {
     let steps = blocks(TUTORIAL, "fsm");
-    assert_eq!(steps.len(), 6);
+    assert_eq!(steps.len(), 7);
     let mut told = String::new();
     for (index, step) in steps.into_iter().enumerate() {
         let source = Source::new("mine.fsm", step);
@@ -38,8 +38,10 @@ fn every_step_passes_its_own_tests() {
     for name in ["policies", "scenarios"] {
         std::fs::create_dir_all(folder.join(name)).unwrap();
     }
-    let disk = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/disk.yaml");
-    std::fs::copy(disk, folder.join("scenarios/disk.yaml")).unwrap();
+    for scenario in ["scenarios/disk.yaml", "scenarios/box.yaml"] {
+        let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(scenario);
+        std::fs::copy(file, folder.join(scenario)).unwrap();
+    }
     for step in blocks(TUTORIAL, "fsm") {
         std::fs::write(folder.join("policies/mine.fsm"), step).unwrap();
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"));
