@@ -24,3 +24,13 @@ fn every_policy_passes_the_tests_that_it_carries() {
         }
     });
 }
+
+/// Ranges of corners, tunnels, walls and rooms. The quasi-static simulator runs each case in a fraction of the time of the other.
+#[test]
+fn the_default_policy_keeps_its_claims_over_whole_families() {
+    let claims = Path::new(env!("CARGO_MANIFEST_DIR")).join("policies/tests/families/vibrissa.fsm");
+    let arguments = ["--simulator", "quasistatic", "--cases", "5"];
+    let output = Command::new(env!("CARGO_BIN_EXE_vibrissa")).arg("test").arg(claims).args(arguments).output().unwrap();
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && printed.contains("11 tests, 0 failed"), "{printed}");
+}
