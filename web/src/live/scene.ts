@@ -85,7 +85,7 @@ export class Scene implements Panel {
       button("−", free(() => this.#zoom.by(1 / 1.5)), "zoom out of the scene"),
       button("whole", free(() => this.#zoom.reset()), "show the whole scene"),
     );
-    const note = hello.scene === null ? element("p", "hint", "The scene is not known. Only what the robot has felt is shown.") : "";
+    const note = hello.scene === null ? element("p", "hint", "The scene is not known, because no `--scenario` has it. Only what the robot has felt is shown.") : "";
     this.element = element("section", "scene", element("div", "head", element("h2", "", "Scene"), tools), this.#drawing, this.#legend, note);
     for (const outline of hello.scene ?? []) {
       outline.points.forEach((point) => this.#world.include(point, 0.05));
