@@ -29,10 +29,13 @@
     #list = element("ul", "breakpoints");
     #actions;
     #field = element("input");
+    #fault = element("p", "hint");
+    #isAsked = false;
     #drawn = "";
     constructor(run, actions) {
       this.#actions = actions;
       const field = this.#field;
+      this.#fault.setAttribute("role", "alert");
       field.setAttribute("aria-label", "state or condition of a new breakpoint");
       field.setAttribute("list", "states");
       field.placeholder = "state or condition";
@@ -45,12 +48,22 @@
       form.addEventListener("submit", (event) => {
         event.preventDefault();
         const text2 = field.value.trim();
+        this.#fault.textContent = "";
         if (text2 !== "") {
+          this.#isAsked = true;
           actions.send({ type: "break", add: text2, remove: null });
         }
       });
       const isPossible = run.hello.capabilities.breakpoints;
-      this.element = element("section", "", element("h2", "", "Breakpoints"), ...isPossible ? [this.#list, form] : [element("p", "hint", "This run has no breakpoints.")]);
+      this.element = element("section", "", element("h2", "", "Breakpoints"), ...isPossible ? [this.#list, form, this.#fault] : [element("p", "hint", "This run has no breakpoints.")]);
+    }
+    /** Shows a fault beside the field. False if it is not of a breakpoint that was asked for here. */
+    fault({ message, id }) {
+      const isOfField = this.#isAsked && id === null;
+      if (isOfField) {
+        [this.#isAsked, this.#fault.textContent] = [false, message];
+      }
+      return isOfField;
     }
     update({ run }) {
       const breakpoints = run.breakpoints;
@@ -60,6 +73,7 @@
         return;
       }
       this.#drawn = key;
+      this.#isAsked = false;
       if (breakpoints.some(({ text: text2 }) => text2 === this.#field.value.trim())) {
         this.#field.value = "";
       }
@@ -969,7 +983,7 @@
     #width;
     #kinds;
     #answer;
-    /** The first tick with the change. Until something is changed, it is the shown one. */
+    /** The first tick with the change. Undefined until something is changed. */
     #tick;
     #shown = { tick: 0, time: 0 };
     #timer;
@@ -1025,7 +1039,7 @@
       if (frame !== void 0) {
         this.#shown = { tick: frame.tick, time: frame.time };
       }
-      const tick = this.#tick ?? this.#shown.tick;
+      const tick = this.#tick ?? this.#first();
       this.#start.textContent = `from tick ${tick} (${(run.history.at(tick)?.time ?? 0).toFixed(2)} s)`;
       this.#result.hidden = answer === void 0;
       if (answer !== void 0) {
@@ -1052,6 +1066,12 @@
       this.#tick = void 0;
       this.#ask();
     }
+    /** The tick at which a change begins by itself: the shown one. At the end of a run a change would have no time, so it begins at the start. */
+    #first() {
+      const { history, status } = this.#run;
+      const isOver = status?.state === "finished" && this.#shown.tick === history.last?.tick;
+      return isOver ? history.frames[0]?.tick ?? 0 : this.#shown.tick;
+    }
     /** Asks again after a change, with a pause between two questions. */
     #ask() {
       clearTimeout(this.#timer);
@@ -1066,7 +1086,7 @@
       if (changed.length === 0) {
         this.#answer = void 0;
       } else {
-        const tick = this.#tick ??= this.#shown.tick;
+        const tick = this.#tick ??= this.#first();
         const kind = this.#kinds.closed_loop.checked ? "closed_loop" : "recorded";
         const set2 = Object.fromEntries(changed);
         this.#answer = new Answer(next, kind, tick, this.#run.history.at(tick)?.time ?? 0, set2);
@@ -2076,6 +2096,7 @@
     #run;
     #panels = [];
     #counterfactual;
+    #breakpoints;
     #chart;
     /** The shown tick. The newest one if undefined. */
     #selected;
@@ -2133,7 +2154,7 @@
       if (message.type === "hello") {
         this.#begin(message);
       } else if (message.type === "error") {
-        if (!this.#counterfactual?.fault(message)) {
+        if (!this.#counterfactual?.fault(message) && !this.#breakpoints?.fault(message)) {
           this.#controls.report(message.message);
         }
       } else if (run !== void 0) {
@@ -2184,7 +2205,7 @@
       const scene = new Scene(run, this);
       const guards = new Guards(run, this, (guard) => this.#plotGuard(guard));
       const figures = new Figures();
-      const breakpoints = new BreakpointList(run, this);
+      const breakpoints = this.#breakpoints = new BreakpointList(run, this);
       this.#panels = [this.#controls, scene, this.#chart, guards, figures, breakpoints, this.#counterfactual];
       const { breakpoints: breaks, counterfactual, closed_loop: closedLoop } = hello.capabilities;
       breakpoints.element.hidden = !breaks && hello.command === "run";

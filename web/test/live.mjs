@@ -113,7 +113,7 @@ await serve(run, async (address) => {
     await tabTo(page, ".add input");
     await page.keyboard.type("no_such_thing > 1");
     await page.keyboard.press("Enter");
-    await page.waitForFunction(() => document.querySelector(".fault").textContent.includes("no_such_thing"));
+    await page.waitForFunction(() => document.querySelector("form.add + p").textContent.includes("no_such_thing"));
     await page.keyboard.press("Control+a");
     await page.keyboard.type("time > 8 s");
     await page.keyboard.press("Enter");

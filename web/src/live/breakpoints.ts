@@ -1,5 +1,6 @@
 import { button } from "../shared/button.ts";
 import { element } from "../shared/element.ts";
+import type { Fault } from "./protocol.ts";
 import type { Run } from "./run.ts";
 import type { Actions, Panel, View } from "./view.ts";
 
@@ -9,11 +10,14 @@ export class BreakpointList implements Panel {
   readonly #list = element("ul", "breakpoints");
   readonly #actions: Actions;
   readonly #field = element("input");
+  readonly #fault = element("p", "hint");
+  #isAsked = false;
   #drawn = "";
 
   constructor(run: Run, actions: Actions) {
     this.#actions = actions;
     const field = this.#field;
+    this.#fault.setAttribute("role", "alert");
     field.setAttribute("aria-label", "state or condition of a new breakpoint");
     field.setAttribute("list", "states");
     field.placeholder = "state or condition";
@@ -26,12 +30,23 @@ export class BreakpointList implements Panel {
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       const text = field.value.trim();
+      this.#fault.textContent = "";
       if (text !== "") {
+        this.#isAsked = true;
         actions.send({ type: "break", add: text, remove: null });
       }
     });
     const isPossible = run.hello.capabilities.breakpoints;
-    this.element = element("section", "", element("h2", "", "Breakpoints"), ...(isPossible ? [this.#list, form] : [element("p", "hint", "This run has no breakpoints.")]));
+    this.element = element("section", "", element("h2", "", "Breakpoints"), ...(isPossible ? [this.#list, form, this.#fault] : [element("p", "hint", "This run has no breakpoints.")]));
+  }
+
+  /** Shows a fault beside the field. False if it is not of a breakpoint that was asked for here. */
+  fault({ message, id }: Fault): boolean {
+    const isOfField = this.#isAsked && id === null;
+    if (isOfField) {
+      [this.#isAsked, this.#fault.textContent] = [false, message];
+    }
+    return isOfField;
   }
 
   update({ run }: View): void {
@@ -42,6 +57,7 @@ export class BreakpointList implements Panel {
       return;
     }
     this.#drawn = key;
+    this.#isAsked = false;
     // A text that cannot be a breakpoint stays in the field.
     if (breakpoints.some(({ text }) => text === this.#field.value.trim())) {
       this.#field.value = "";

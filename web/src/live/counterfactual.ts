@@ -36,7 +36,7 @@ export class Counterfactual implements Panel {
   readonly #width: Width;
   readonly #kinds: Record<Kind, HTMLInputElement>;
   #answer: Answer | undefined;
-  /** The first tick with the change. Until something is changed, it is the shown one. */
+  /** The first tick with the change. Undefined until something is changed. */
   #tick: number | undefined;
   #shown: { tick: number; time: number } = { tick: 0, time: 0 };
   #timer: number | undefined;
@@ -96,7 +96,7 @@ export class Counterfactual implements Panel {
     if (frame !== undefined) {
       this.#shown = { tick: frame.tick, time: frame.time };
     }
-    const tick = this.#tick ?? this.#shown.tick;
+    const tick = this.#tick ?? this.#first();
     this.#start.textContent = `from tick ${tick} (${(run.history.at(tick)?.time ?? 0).toFixed(2)} s)`;
     this.#result.hidden = answer === undefined;
     if (answer !== undefined) {
@@ -126,6 +126,13 @@ export class Counterfactual implements Panel {
     this.#ask();
   }
 
+  /** The tick at which a change begins by itself: the shown one. At the end of a run a change would have no time, so it begins at the start. */
+  #first(): number {
+    const { history, status } = this.#run;
+    const isOver = status?.state === "finished" && this.#shown.tick === history.last?.tick;
+    return isOver ? (history.frames[0]?.tick ?? 0) : this.#shown.tick;
+  }
+
   /** Asks again after a change, with a pause between two questions. */
   #ask(): void {
     clearTimeout(this.#timer);
@@ -141,7 +148,7 @@ export class Counterfactual implements Panel {
     if (changed.length === 0) {
       this.#answer = undefined;
     } else {
-      const tick = (this.#tick ??= this.#shown.tick);
+      const tick = (this.#tick ??= this.#first());
       const kind: Kind = this.#kinds.closed_loop.checked ? "closed_loop" : "recorded";
       const set = Object.fromEntries(changed);
       this.#answer = new Answer(next, kind, tick, this.#run.history.at(tick)?.time ?? 0, set);

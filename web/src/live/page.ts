@@ -30,6 +30,7 @@ export class Page implements Actions {
   #run: Run | undefined;
   #panels: Panel[] = [];
   #counterfactual: Counterfactual | undefined;
+  #breakpoints: BreakpointList | undefined;
   #chart: ChartPanel | undefined;
   /** The shown tick. The newest one if undefined. */
   #selected: number | undefined;
@@ -96,7 +97,7 @@ export class Page implements Actions {
     if (message.type === "hello") {
       this.#begin(message);
     } else if (message.type === "error") {
-      if (!this.#counterfactual?.fault(message)) {
+      if (!this.#counterfactual?.fault(message) && !this.#breakpoints?.fault(message)) {
         this.#controls.report(message.message);
       }
     } else if (run !== undefined) {
@@ -147,7 +148,7 @@ export class Page implements Actions {
     const scene = new Scene(run, this);
     const guards = new Guards(run, this, (guard) => this.#plotGuard(guard));
     const figures = new Figures();
-    const breakpoints = new BreakpointList(run, this);
+    const breakpoints = this.#breakpoints = new BreakpointList(run, this);
     this.#panels = [this.#controls, scene, this.#chart, guards, figures, breakpoints, this.#counterfactual];
     const { breakpoints: breaks, counterfactual, closed_loop: closedLoop } = hello.capabilities;
     breakpoints.element.hidden = !breaks && hello.command === "run";
