@@ -21,7 +21,10 @@ export async function checkNewcomer(address) {
   await checkFirstView(address);
   await checkSlow(address);
   await checkVerdicts(address);
+  await checkCheats(address);
   await checkEditor(address);
+  await checkOwn(address);
+  await checkShapes(address);
   await checkParts(address);
 }
 
@@ -113,6 +116,67 @@ async function checkVerdicts(address) {
     await expect(page, ".score .own .name", "this policy");
     await page.click(".bar .primary");
     await expect(page, ".lesson-verdict", "Not yet: the run has to end within 30 s (it took 54.7 s).");
+  });
+}
+
+/** A step is not done by another task, or in another scene. */
+async function checkCheats(address) {
+  await open(address, "light", 1600, async (page) => {
+    await expectVerdict(page, "completed");
+    await page.selectOption(SPEED, "3");
+    await page.click(".lessons .primary");
+    await write(page, 'machine mine\n\ninitial A\n\nstate A {\n  stop\n  after 1 s -> Success("time")\n}\n');
+    await page.click(".bar .primary");
+    await expect(page, ".lesson-verdict", "Not yet: the run must not end before 3.7 s (it ended after 1 s).");
+    await page.click(".lessons .head button:nth-child(5)");
+    await page.click(".lessons >> text=solution");
+    await expect(page, ".lesson-verdict", "Done.");
+    await page.selectOption(".scenes select", { label: "disk" });
+    await expect(page, ".lesson-verdict", "Not yet: the scene has to be box.");
+  });
+}
+
+/** What the reader has written comes back after a reload, and after a look at another policy. */
+async function checkOwn(address) {
+  await open(address, "light", 1600, async (page) => {
+    const written = 'machine written\n\ninitial A\n\nstate A {\n  stop\n  after 1 s -> Success("time")\n}\n';
+    const shown = () => page.$$eval(`${POLICY} .cm-line`, (lines) => lines.map((line) => line.textContent).join("\n"));
+    await expectVerdict(page, "completed");
+    // Nothing is before the first text.
+    await page.focus(POLICY);
+    await page.keyboard.press("Control+z");
+    assert.match(await shown(), /^(#|machine)/);
+    await write(page, written);
+    await page.selectOption(".choices > label:nth-last-child(2) select", "0");
+    await page.waitForFunction(() => !document.querySelector('.cm-content[aria-label="policy"]').textContent.includes("machine written"));
+    await page.selectOption(".choices > label:nth-last-child(2) select", { label: "own" });
+    assert.equal(await shown(), written);
+    await page.reload();
+    await expectVerdict(page, "ended");
+    assert.equal(await shown(), written);
+    assert.equal(await content(page, ".notice"), "This is your policy of the last visit. The list of policies has the others.");
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.click('.tools >> text="result"')]);
+    assert.deepEqual(JSON.parse(await readFile(await saved.path(), "utf8")).set, {});
+  });
+}
+
+/** Ctrl+Z in the drawing takes back what was moved there. A text that is no breakpoint is refused beside its field. */
+async function checkShapes(address) {
+  await open(address, "light", 1600, async (page) => {
+    await expectVerdict(page, "completed");
+    await page.$eval(".shapes", (part) => { part.open = true; });
+    const place = (start) => page.waitForFunction((start) => document.querySelector(".shapes .handle")?.getAttribute("aria-label").includes(start), start);
+    await place("400 mm, 400 mm");
+    await page.focus(".shapes .handle");
+    await page.keyboard.press("ArrowRight");
+    await place("410 mm, 400 mm");
+    await page.keyboard.press("Control+z");
+    await place("400 mm, 400 mm");
+    await page.keyboard.press("Control+y");
+    await place("410 mm, 400 mm");
+    await page.fill('[aria-label="state or condition of a new breakpoint"]', "<b>nonsense");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => /^this is no breakpoint/.test([...document.querySelectorAll("form.add + p")].map((part) => part.textContent).join()));
   });
 }
 

@@ -50,13 +50,15 @@ pub(crate) const LESSONS: [Lesson; 5] = [
         text: "A policy is a machine. `whisker r0` says that it uses the robot's right whisker and calls it `r0`. The machine begins in \
                its `initial` state. Thirty times per second it takes the transitions that are due, and then executes the statements of \
                the state. A transition is `when CONDITION -> TARGET`. The targets `Success(\"why\")` and `Failure(\"why\")` end the run. \
+               It is called completed if it also meets what the scene expects, such as a coverage, and ended if not. \
                Watch the run: the whisker bends at the disk, but the robot drives on, because its state has no transition.",
         task: "Add a transition to the state `Exploring`, so that the run ends in success as soon as `r0.touching` holds.",
         scene: "disk",
         policy: include_str!("../lessons/1.fsm"),
         solution: include_str!("../lessons/1-solution.fsm"),
         outcomes: DONE,
-        bounds: &[most("sim_s", 5.0)],
+        // The whisker touches the disk after 3.8 s.
+        bounds: &[least("sim_s", 3.7), most("sim_s", 5.0)],
     },
     Lesson {
         title: "Record what the whisker feels",
@@ -78,7 +80,7 @@ pub(crate) const LESSONS: [Lesson; 5] = [
                `rotate(DIRECTION, ANGLE)` turns a direction, and `angle(DIRECTION)` is its heading. The law of this policy is the angle \
                `30 deg * clamp(too_much, -1, 1)`: away from the disk if the whisker is bent too much, and towards it if too little.",
         task: "While `r0.contour.ready` holds, steer `r0` along the tangent rotated by the angle of the law, facing the angle of the \
-               tangent. This replaces the statement `steer body`. The run has to come round the disk.",
+               tangent. This replaces the statement `steer body`. The run has to come round the disk: this scene ends it where the contour is closed.",
         scene: "disk",
         policy: include_str!("../lessons/3.fsm"),
         solution: include_str!("../lessons/3-solution.fsm"),
@@ -102,7 +104,7 @@ pub(crate) const LESSONS: [Lesson; 5] = [
                state that `is` a behaviour has to say where each exit of it leads: `on EXIT -> TARGET`. An exit may pass values on: `w` \
                is the whisker that followed the object, and `away` the direction from its surface to the body.",
         task: "The exit `closed(w, away)` is missing. Write its line below the other exits of `Tracing`, let it end the run in success, \
-               and trace the box.",
+               and trace the box. (This scene ends a run at a closed contour by itself. In others, only the exit does.)",
         scene: "box",
         policy: include_str!("../lessons/5.fsm"),
         solution: include_str!("../lessons/5-solution.fsm"),

@@ -1,9 +1,9 @@
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentWithTab, redo, undo } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentUnit } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics, type Diagnostic } from "@codemirror/lint";
 import { searchKeymap } from "@codemirror/search";
-import { EditorState, type Extension, type Text } from "@codemirror/state";
+import { EditorState, Transaction, type Extension, type Text } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import { element } from "../shared/element.ts";
 import type { Language, Position, Problem } from "./language.ts";
@@ -12,12 +12,15 @@ import type { Language, Position, Problem } from "./language.ts";
 export class Editor {
   readonly view: EditorView;
 
-  constructor(parent: HTMLElement, label: string, changed: (text: string) => void, extensions: Extension[]) {
+  #isBegun = false;
+
+  /** `changed` learns of each change, and whether it is one of the reader. */
+  constructor(parent: HTMLElement, label: string, changed: (text: string, isOfReader: boolean) => void, extensions: Extension[]) {
     const keys = element("p", "hint", "Tab indents; Esc, then Tab leaves. Ctrl+Enter runs.");
     keys.id = `${label}-keys`;
     const told = EditorView.updateListener.of((update) => {
       if (update.docChanged) {
-        changed(update.state.doc.toString());
+        changed(update.state.doc.toString(), update.transactions.some((transaction) => transaction.annotation(Transaction.userEvent) !== undefined));
       }
     });
     this.view = new EditorView({
@@ -40,7 +43,15 @@ export class Editor {
   }
 
   set text(text: string) {
-    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+    // There is nothing before the first text to which the reader could go back.
+    const annotations = this.#isBegun ? [] : [Transaction.addToHistory.of(false)];
+    this.#isBegun = true;
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text }, annotations });
+  }
+
+  /** Takes the last change back, or makes it again. */
+  undo(isAgain: boolean): void {
+    (isAgain ? redo : undo)(this.view);
   }
 
   /** Shows diagnostics of the language server. */
@@ -58,7 +69,7 @@ export class Editor {
     const before = this.view.state.doc;
     const edits = await language.format();
     if (this.view.state.doc === before) {
-      this.view.dispatch({ changes: edits.map(({ range, newText }) => ({ from: offset(before, range.start), to: offset(before, range.end), insert: newText })) });
+      this.view.dispatch({ changes: edits.map(({ range, newText }) => ({ from: offset(before, range.start), to: offset(before, range.end), insert: newText })), userEvent: "format" });
     }
   }
 }

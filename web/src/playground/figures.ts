@@ -42,6 +42,9 @@ export function shortfalls(result: Result, bounds: Lesson["bounds"]): string[] {
     if (value > (most ?? Infinity)) {
       return [key === "sim_s" ? `the run has to end within ${shown(known, most)} (it took ${now})` : `the ${known.name} has to be at most ${shown(known, most)} (now ${now})`];
     }
+    if (key === "sim_s" && value < (least ?? -Infinity)) {
+      return [`the run must not end before ${shown(known, least)} (it ended after ${now})`];
+    }
     return value < (least ?? -Infinity) ? [`the ${known.name} has to be at least ${shown(known, least)} (now ${now})`] : [];
   });
 }

@@ -33,7 +33,7 @@ export class Lessons {
     if (lesson === undefined) {
       return;
     }
-    const missing = shortfalls(result, lesson.bounds);
+    const missing = [...(result.scenario === lesson.scene ? [] : [`the scene has to be ${lesson.scene}`]), ...shortfalls(result, lesson.bounds)];
     const ended = `the outcome is ${result.outcome}${result.reason === null ? "" : ` (${result.reason})`}`;
     // Also where any outcome will do, a failure is often the cause of the rest.
     const causes = lesson.outcomes.includes(result.outcome) && result.outcome !== "failed" ? missing : [ended, ...missing];

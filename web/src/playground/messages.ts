@@ -37,6 +37,7 @@ export interface Result {
   outcome: string;
   violations: string[];
   reason: string | null;
+  scenario: string;
   policy: string;
   [key: string]: unknown;
 }

@@ -6,6 +6,7 @@ import { download, fileName } from "../shared/download.ts";
 import { element } from "../shared/element.ts";
 import { Editor, services } from "./editor.ts";
 import { Language, type Problem } from "./language.ts";
+import { keep, restored } from "./kept.ts";
 import { Lessons } from "./lessons.ts";
 import { decode, encode } from "./link.ts";
 import type { BuiltIn, Catalog, Change, Drawn, FromWorker, Question, Result, Shape, Start } from "./messages.ts";
@@ -49,7 +50,12 @@ export class Playground {
   readonly #results = [button("result", () => this.#save("json"), "download the result as JSON"), button("picture", () => this.#save("svg"), "download the picture of the run")];
   readonly #outdated = element("span", "hint", "Result and picture are from the previous text. Run the present one to save them.");
   readonly #run: HTMLButtonElement;
-  readonly #shapes = new Shapes((change) => this.#reshape(change));
+  readonly #shapes = new Shapes((change) => this.#reshape(change), (isAgain) => {
+    this.#scenario?.undo(isAgain);
+    this.#runSoon();
+  });
+  /** The policy that the reader has written last. */
+  #own: string | undefined;
   #lessons: Lessons | undefined;
   #scenes: Scenes | undefined;
   #catalog: Catalog | undefined;
@@ -175,14 +181,17 @@ export class Playground {
     this.#root.append(
       element("header", "bar", element("div", "choices", scenes.element, templates, speeds), tools, this.#notice),
       element("div", "bench", left, right), live);
-    this.#policy = new Editor(policyBox, "policy", (text) => {
+    this.#policy = new Editor(policyBox, "policy", (text, isOfReader) => {
+      this.#own = isOfReader ? text : this.#own;
+      this.#keep(isOfReader);
       if (this.#catalog?.templates[Number(this.#template.value)]?.text !== text) {
         this.#template.value = String(known.length);
       }
       this.#language.change(text);
       this.#date();
     }, [policySyntax(words), ...services(this.#language)]);
-    this.#scenario = new Editor(scenarioBox, "scenario", (text) => {
+    this.#scenario = new Editor(scenarioBox, "scenario", (text, isOfReader) => {
+      this.#keep(isOfReader);
       scenes.show(text);
       void this.#showShapes();
       this.#date();
@@ -200,8 +209,13 @@ export class Playground {
     }, true);
     addEventListener("hashchange", () => void this.#openLink().then((isOpen) => isOpen || this.#refuseLink()));
     if (!(await this.#openLink())) {
-      this.#load(policies[0]?.text ?? "", scenarios[0]?.text ?? "");
+      const kept = restored();
+      this.#own = kept?.policy;
+      this.#load(kept?.policy ?? policies[0]?.text ?? "", kept?.scenario ?? scenarios[0]?.text ?? "");
       this.#start(false);
+      if (kept) {
+        this.#tell("This is your policy of the last visit. The list of policies has the others.");
+      }
       this.#refuseLink();
     }
   }
@@ -286,11 +300,18 @@ export class Playground {
   }
 
   #chooseTemplate(): void {
-    const policy = this.#catalog?.templates[Number(this.#template.value)];
-    if (policy && this.#policy) {
+    const text = this.#catalog?.templates[Number(this.#template.value)]?.text ?? this.#own;
+    if (text !== undefined && this.#policy) {
       this.#parameters.take({});
-      this.#policy.text = policy.text;
+      this.#policy.text = text;
       this.#start();
+    }
+  }
+
+  /** Keeps the texts in this browser, after a change of the reader. */
+  #keep(isOfReader: boolean): void {
+    if (isOfReader && this.#own !== undefined) {
+      keep({ policy: this.#own, scenario: this.#scenario?.text ?? "" });
     }
   }
 
@@ -373,7 +394,7 @@ export class Playground {
   #save(extension: "fsm" | "yaml" | "json" | "svg"): void {
     const { policy, scenario } = this.#texts();
     const { result, picture } = this.#last ?? {};
-    const contents = { fsm: policy, yaml: scenario, json: JSON.stringify(result, null, 2), svg: picture ?? "" };
+    const contents = { fsm: policy, yaml: scenario, json: JSON.stringify({ ...result, set: this.#last?.start.set }, null, 2), svg: picture ?? "" };
     const types = { fsm: "text/plain", yaml: "text/plain", json: "application/json", svg: "image/svg+xml" };
     // The reader may have changed the text since the run.
     const name = (extension === "yaml" ? /^name:\s*(.+)$/m.exec(scenario) : /^\s*machine\s+(\w+)/m.exec(policy))?.[1];

@@ -39,6 +39,7 @@ interface Handle {
 export class Shapes {
   readonly element = element("details", "shapes");
   readonly #change: (change: Change) => Promise<void>;
+  readonly #undo: (isAgain: boolean) => void;
   readonly #svg = svg("svg", { role: "group", "aria-label": "objects of the scene, from above", tabindex: 0 });
   readonly #outlines = svg("path", { class: "objects" });
   readonly #robot = svg("path", { class: "platform" });
@@ -55,9 +56,9 @@ export class Shapes {
   /** Changes are made one after the other, each in the text that the one before has left. */
   #queue: Promise<void> = Promise.resolve();
 
-  /** `change` changes the text of the scenario. */
-  constructor(change: (change: Change) => Promise<void>) {
-    this.#change = change;
+  /** `change` changes the text of the scenario. `undo` takes the last change of that text back, or makes it again. */
+  constructor(change: (change: Change) => Promise<void>, undo: (isAgain: boolean) => void) {
+    [this.#change, this.#undo] = [change, undo];
     const mode = (mode: Mode, text: string, description: string): HTMLButtonElement => button(text, () => this.#choose(mode), description);
     this.#modes = { move: mode("move", "move", "move objects and corners"), disk: mode("disk", "add disk", "add a disk"), polygon: mode("polygon", "add polygon", "add a polygon") };
     this.#svg.append(this.#outlines, this.#robot, this.#draft, this.#handles);
@@ -199,6 +200,13 @@ export class Shapes {
   }
 
   #key(event: KeyboardEvent): void {
+    const key = event.key.toLowerCase();
+    if ((event.ctrlKey || event.metaKey) && (key === "z" || key === "y")) {
+      // The browser would take back a change of another editor.
+      event.preventDefault();
+      this.#queue = this.#queue.then(() => this.#undo(key === "y" || event.shiftKey));
+      return;
+    }
     if (event.ctrlKey || event.altKey || event.metaKey) {
       return;
     }
