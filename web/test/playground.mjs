@@ -71,7 +71,8 @@ await serve(program, ["playground", folder], async (address) => {
     const others = await page.$$eval(".score tbody tr", (rows) => rows.map((row) => [...row.cells].slice(1).map((cell) => cell.textContent).join(" ")));
     assert.equal(others[0], others[1], "the same policy has the same figures");
 
-    // By keyboard: run, and the time to the first frame.
+    // By keyboard: run, pause, step and stop. In real time, so that the run is not over before.
+    await page.selectOption(SPEED, "0");
     await page.keyboard.press("Control+Enter");
     await page.waitForFunction(() => document.querySelector(".status").dataset.state === "running");
     await page.focus(".slider");
@@ -84,6 +85,7 @@ await serve(program, ["playground", folder], async (address) => {
     await tabTo(page, ".bar .tools button:nth-child(2)");
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => document.querySelector(".status").textContent.includes("stopped"));
+    await page.selectOption(SPEED, "2");
 
     // Diagnostics while typing, and a policy that does not compile is refused in words.
     await write(page, "machine m\n\nwhisker r0\n\ninitial A\n\nstate A { stop  when r0.tuching -> B }\n");

@@ -366,3 +366,19 @@ fn an_array_that_is_not_calibrated_needs_a_mismatch() {
         assert!(stderr(&output).contains("--uncalibrated has no effect"), "{command:?}: {}", stderr(&output));
     }
 }
+
+/// Pages are stamped by figures of ideal arrays. A change of the calibration changes none of them.
+#[cfg(feature = "sim")]
+#[test]
+fn the_readme_has_the_figures_that_its_command_prints() {
+    let readme = fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
+    let row: Vec<&str> = readme.lines().find(|line| line.starts_with("| box |")).unwrap().split('|').collect();
+    for (policy, column) in [("policies/thesis.fsm", 4), ("policies/vibrissa.fsm", 6)] {
+        let array = ["--mismatch", "scenarios/mismatch/plausible.yaml", "--json"];
+        let output = vibrissa(&[&["run", "scenarios/box.yaml", "--policy", policy][..], &array].concat());
+        let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let mean = results[0]["error_mm"]["mean"].as_f64().unwrap();
+        let renew = "run `cargo x results` for all pages with calibrated arrays";
+        assert_eq!(format!("{mean:.3}"), row[column].trim(), "{policy}: {renew}");
+    }
+}
