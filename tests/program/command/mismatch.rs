@@ -378,7 +378,7 @@ fn the_readme_has_the_figures_that_its_command_prints() {
         let output = vibrissa(&[&["run", "scenarios/box.yaml", "--policy", policy][..], &array].concat());
         let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
         let mean = results[0]["error_mm"]["mean"].as_f64().unwrap();
-        let renew = "run `cargo x results` for all pages with calibrated arrays";
+        let renew = "run `cargo x results mismatch calibration pareto`";
         assert_eq!(format!("{mean:.3}"), row[column].trim(), "{policy}: {renew}");
     }
 }
