@@ -24,11 +24,11 @@ const BUILDS: [(&str, &str); 5] = [
     ("vibrissa-mlx90393", "riscv32imc-unknown-none-elf"),
 ];
 /// Cargo's arguments for the tests on aarch64. It builds both packages at once, because their dependencies would have
-/// other features one by one. An emulated hour, explorations of whole rooms, and the statistics of many calibrations take
-/// an emulated processor too long, and need no certain processor: other tests compare the bits.
+/// other features one by one. An emulated hour, and the statistics of many calibrations, take an emulated processor too
+/// long, and need no certain processor.
 ///
 /// Rustdoc would need the settings of the cross build too, and its examples are tested on this machine.
-const ON_AARCH64: [&str; 19] = [
+const ON_AARCH64: [&str; 17] = [
     "test",
     "--package",
     PACKAGE,
@@ -46,8 +46,6 @@ const ON_AARCH64: [&str; 19] = [
     "an_hour_",
     "--skip",
     "calibration::touch_tests::",
-    "--skip",
-    "exploring::",
 ];
 /// Number of cases of every property, also of those with a number of their own. The code is the same as on this machine,
 /// and an emulated processor takes twenty times as long.
