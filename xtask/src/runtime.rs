@@ -24,11 +24,11 @@ const BUILDS: [(&str, &str); 5] = [
     ("vibrissa-mlx90393", "riscv32imc-unknown-none-elf"),
 ];
 /// Cargo's arguments for the tests on aarch64. It builds both packages at once, because their dependencies would have
-/// other features one by one. An emulated hour, and the statistics of many calibrations, take an emulated processor too
-/// long, and need no certain processor.
+/// other features one by one. An emulated hour, the statistics of many calibrations, and long searches and explorations of
+/// a map take an emulated processor too long, and need no certain processor. That a map has the same bits is a test of its own.
 ///
 /// Rustdoc would need the settings of the cross build too, and its examples are tested on this machine.
-const ON_AARCH64: [&str; 17] = [
+const ON_AARCH64: [&str; 23] = [
     "test",
     "--package",
     PACKAGE,
@@ -46,6 +46,12 @@ const ON_AARCH64: [&str; 17] = [
     "an_hour_",
     "--skip",
     "calibration::touch_tests::",
+    "--skip",
+    "a_route_is_at_most_half_longer_than_the_shortest_one",
+    "--skip",
+    "a_long_search_takes_many_ticks",
+    "--skip",
+    "exploring::",
 ];
 /// Number of cases of every property, also of those with a number of their own. The code is the same as on this machine,
 /// and an emulated processor takes twenty times as long.

@@ -1,4 +1,4 @@
-//! Commands and contacts have the same bits on every target.
+//! Commands, contacts and maps have the same bits on every target.
 //!
 //! Each case is reduced to one number. The numbers are compared with constants, and `cargo x test` runs this program for
 //! x86-64 and for aarch64. A change of policies, perception or steering changes the numbers. The message of the failing
@@ -10,6 +10,7 @@ use nalgebra::Point2;
 use vibrissa_runtime::control::Control;
 use vibrissa_runtime::geometry::Pose;
 use vibrissa_runtime::machine::{Artifact, ContactEstimatorKind};
+use vibrissa_runtime::map::{MapSettings, RouteStatus};
 use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample, TrueTip};
@@ -29,6 +30,8 @@ const ESTIMATORS: [(ContactEstimatorKind, &str); 6] = [
     (ContactEstimatorKind::Polynomial, "b077e9de38fe5c44"),
     (ContactEstimatorKind::Truth, "34974a36044bba92"),
 ];
+/// The number of a map, its targets and its routes while `bang` traces.
+const MAP: &str = "938238f5361f2bb5";
 
 /// Number of ticks: 40 s.
 const TICKS: u32 = 1200;
@@ -166,5 +169,36 @@ fn contacts_have_the_same_bits_on_every_target() -> Result<(), Box<dyn std::erro
         found.push((kind, bits.shown()));
     }
     assert_eq!(found, ESTIMATORS.map(|(kind, bits)| (kind, bits.to_owned())));
+    Ok(())
+}
+
+#[test]
+fn maps_have_the_same_bits_on_every_target() -> Result<(), Box<dyn std::error::Error>> {
+    let rig = Rig::default();
+    let settings = MapSettings { extent: 1.2, ..MapSettings::for_rig(&rig) };
+    let mut control = Control::new(&rig, Arc::new(Artifact::from_bytes(POLICIES[0].1)?.program))?.with_map(&rig, settings)?;
+    let (mut robot, mut bits, mut command, mut routes) = (Robot::new(&rig), Bits::new(), Command::STOP, 0);
+    for tick in 0..TICKS {
+        command = control.tick(&robot.advance(command)).0;
+        let map = control.map_mut().ok_or("no map")?;
+        let target = map.next_target().map(|target| target.pose);
+        if tick % 60 == 0 {
+            map.seek_route(target);
+        }
+        for pose in target.into_iter().chain(map.route().iter().map(|step| step.pose)) {
+            [pose.position.x, pose.position.y, pose.heading].into_iter().for_each(|value| bits.add(value));
+        }
+        routes += u32::from(map.route_status() == RouteStatus::Found);
+        bits.add(map.free_area());
+        bits.add(map.unknown_area());
+    }
+    let map = control.map().ok_or("no map")?;
+    for point in map.free_cells().chain(map.contours().map(|point| point.place)) {
+        bits.add(point.x);
+        bits.add(point.y);
+    }
+    let (ends, length) = (map.contour_ends().count(), map.contour_length());
+    assert!(routes > 0 && ends > 0 && length > 0.0, "{routes} routes, {ends} ends, {length} m: the case says little");
+    assert_eq!(bits.shown(), MAP);
     Ok(())
 }
