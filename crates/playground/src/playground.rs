@@ -40,12 +40,12 @@ impl Playground {
     pub fn answer(&mut self, request: &str) -> String {
         let answer = serde_json::from_str(request).map_err(|fault| fault.to_string());
         let answer = answer.and_then(|request| self.carry_out(request));
-        answer.unwrap_or_else(|error| json!({ "error": error })).to_string()
+        answer.unwrap_or_else(|error| json!({ "error": error }).to_string())
     }
 
-    fn carry_out(&mut self, request: Request) -> Result<Value, String> {
+    fn carry_out(&mut self, request: Request) -> Result<String, String> {
         match request {
-            Request::Catalog => Ok(json!({
+            Request::Catalog => text(&json!({
                 "version": env!("CARGO_PKG_VERSION"),
                 "scenarios": texts(NAMED_SCENARIOS),
                 "families": ENTRIES.map(|family| json!({ "name": family.name, "about": family.about })),
@@ -58,31 +58,31 @@ impl Playground {
                 let answers = self.session.handle(&message.to_string());
                 let answers: Result<Vec<Value>, _> =
                     answers.iter().map(|answer| serde_json::from_str(answer)).collect();
-                value(&answers.map_err(|fault| fault.to_string())?)
+                text(&answers.map_err(|fault| fault.to_string())?)
             }
             Request::Start { scenario, policy, set, breakpoints, beside } => {
                 let place = self.place(beside);
                 *place = None;
                 let (simulation, hello) = Simulation::start(scenario, policy, &set, &breakpoints)?;
                 *place = Some(simulation);
-                value(&hello)
+                text(&hello)
             }
-            Request::Break { texts, new } => value(&self.simulation(false)?.set_breakpoints(&texts, new.as_ref())?),
+            Request::Break { texts, new } => text(&self.simulation(false)?.set_breakpoints(&texts, new.as_ref())?),
             Request::Counterfactual { id, tick, kind, set } => {
                 self.simulation(false)?.ask(Question { id, tick, kind, values: set })?;
-                Ok(Value::Null)
+                text(&())
             }
-            Request::Answer { ticks } => value(&self.simulation(false)?.answer(ticks)?),
+            Request::Answer { ticks } => text(&self.simulation(false)?.answer(ticks)?),
             Request::Draw { family, number } => {
                 let family = Family::named(&family).ok_or_else(|| format!("there is no family `{family}`"))?;
                 let draw = family.draw(SEED, number).map_err(|error| error.to_string())?;
-                Ok(json!({ "scenario": draw.text, "speed": draw.speed }))
+                text(&json!({ "scenario": draw.text, "speed": draw.speed }))
             }
-            Request::Shapes { scenario } => value(&shapes(&scenario)?),
-            Request::Reshape { scenario, change } => Ok(json!({ "scenario": changed(&scenario, &change)? })),
-            Request::Advance { ticks, frames, beside } => value(&self.simulation(beside)?.advance(ticks, frames)?),
-            Request::Ticks => Ok(json!({ "lines": self.simulation(false)?.ticks()? })),
-            Request::Score { beside } => value(&self.simulation(beside)?.score()?),
+            Request::Shapes { scenario } => text(&shapes(&scenario)?),
+            Request::Reshape { scenario, change } => text(&json!({ "scenario": changed(&scenario, &change)? })),
+            Request::Advance { ticks, frames, beside } => text(&self.simulation(beside)?.advance(ticks, frames)?),
+            Request::Ticks => text(&json!({ "lines": self.simulation(false)?.ticks()? })),
+            Request::Score { beside } => text(&self.simulation(beside)?.score()?),
         }
     }
 
@@ -99,8 +99,9 @@ fn texts(files: &[TextFile]) -> Vec<Value> {
     files.iter().map(|file| json!({ "name": file.name(), "text": file.text })).collect()
 }
 
-fn value(answer: &impl Serialize) -> Result<Value, String> {
-    serde_json::to_value(answer).map_err(|fault| fault.to_string())
+/// The JSON text of an answer. It is written at once, because a tree of the values of many frames takes longer than the run.
+fn text(answer: &impl Serialize) -> Result<String, String> {
+    serde_json::to_string(answer).map_err(|fault| fault.to_string())
 }
 
 #[cfg(test)]

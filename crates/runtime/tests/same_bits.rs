@@ -176,7 +176,8 @@ fn contacts_have_the_same_bits_on_every_target() -> Result<(), Box<dyn std::erro
 fn maps_have_the_same_bits_on_every_target() -> Result<(), Box<dyn std::error::Error>> {
     let rig = Rig::default();
     let settings = MapSettings { extent: 1.2, ..MapSettings::for_rig(&rig) };
-    let mut control = Control::new(&rig, Arc::new(Artifact::from_bytes(POLICIES[0].1)?.program))?.with_map(&rig, settings)?;
+    let mut control =
+        Control::new(&rig, Arc::new(Artifact::from_bytes(POLICIES[0].1)?.program))?.with_map(&rig, settings)?;
     let (mut robot, mut bits, mut command, mut routes) = (Robot::new(&rig), Bits::new(), Command::STOP, 0);
     for tick in 0..TICKS {
         command = control.tick(&robot.advance(command)).0;

@@ -12,8 +12,8 @@ use crate::score::CoverageTracker;
 use vibrissa_world::geometry::{Point2, Pose, unit};
 use vibrissa_world::scene::Truth;
 
-/// Shown coordinates are multiples of this (m).
-const RESOLUTION: f64 = 1e-6;
+/// The number of steps in a metre of a shown coordinate. A quotient of whole numbers is the double that has the fewest digits.
+const STEPS: f64 = 1e6;
 
 /// Makes the frames of a run.
 #[derive(Debug)]
@@ -136,5 +136,5 @@ pub fn drawn_pose(pose: &Pose) -> [f64; 3] {
 /// A coordinate (m) for a picture.
 #[must_use]
 pub fn rounded(coordinate: f64) -> f64 {
-    (coordinate / RESOLUTION).round() * RESOLUTION
+    (coordinate * STEPS).round() / STEPS
 }
