@@ -81,6 +81,7 @@ impl Playground {
             Request::Shapes { scenario } => text(&shapes(&scenario)?),
             Request::Reshape { scenario, change } => text(&json!({ "scenario": changed(&scenario, &change)? })),
             Request::Advance { ticks, frames, beside } => text(&self.simulation(beside)?.advance(ticks, frames)?),
+            Request::Frames => text(&self.simulation(false)?.take_frames()),
             Request::Ticks => text(&json!({ "lines": self.simulation(false)?.ticks()? })),
             Request::Score { beside } => text(&self.simulation(beside)?.score()?),
         }
@@ -141,7 +142,7 @@ mod tests {
         let mut frames = 0;
         let ticks = loop {
             let advanced = ask(&mut playground, &json!({ "type": "advance", "ticks": 7 }));
-            frames += advanced["frames"].as_array().unwrap().len();
+            frames += ask(&mut playground, &json!({ "type": "frames" })).as_array().unwrap().len();
             if advanced["has_ended"] == true {
                 break advanced["ticks"].clone();
             }

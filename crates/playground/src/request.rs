@@ -81,13 +81,15 @@ pub(crate) enum Request {
     Advance {
         /// Their largest number.
         ticks: usize,
-        /// False if nobody watches. Then the answer has no frames.
+        /// False if nobody watches. Then no frames are made.
         #[serde(default = "yes")]
         frames: bool,
         /// True for the run beside the one that the page shows.
         #[serde(default)]
         beside: bool,
     },
+    /// The frames of the run that the page shows, which were made since this was asked last.
+    Frames,
     /// The ticks of the run until now, as `run --ticks` writes them.
     Ticks,
     /// Scores the run, which has ended. Then its ticks are gone.

@@ -52,14 +52,15 @@ struct Watch {
     results: Vec<TickResult>,
     /// The breakpoint that the newest tick has hit.
     hit: Option<String>,
-    /// The frames since the last answer. `None` if nobody watches.
-    made: Option<Vec<Arc<Frame>>>,
+    /// False if nobody watches. Then no frames are made.
+    is_watched: bool,
+    /// The frames that nobody has taken yet.
+    made: Vec<Frame>,
 }
 
 /// The answer to a request for ticks.
 #[derive(Debug, Serialize)]
 pub(crate) struct Advanced {
-    frames: Vec<Arc<Frame>>,
     /// The number of ticks until now.
     ticks: usize,
     /// The simulated time (s).
@@ -134,7 +135,8 @@ impl Simulation {
             past,
             results: Vec::new(),
             hit: None,
-            made: None,
+            is_watched: true,
+            made: Vec::new(),
         };
         let simulation = Self { trial, world, run: Some(run), ending: None, source: text, watch, counterfactual: None };
         Ok((simulation, ServerMessage::Hello(hello)))
@@ -186,13 +188,13 @@ impl Simulation {
         Ok(piece)
     }
 
-    /// Simulates at most this number of ticks.
+    /// Simulates at most this number of ticks, and makes their frames if somebody watches.
     ///
     /// # Errors
     /// If the run has been scored.
-    pub(crate) fn advance(&mut self, ticks: usize, frames: bool) -> Result<Advanced, String> {
+    pub(crate) fn advance(&mut self, ticks: usize, is_watched: bool) -> Result<Advanced, String> {
         let run = self.run.as_mut().ok_or_else(scored)?;
-        self.watch.made = frames.then(Vec::new);
+        self.watch.is_watched = is_watched;
         self.watch.hit = None;
         for _ in 0..ticks {
             if self.ending.is_some() || self.watch.hit.is_some() {
@@ -205,12 +207,16 @@ impl Simulation {
         }
         let trace = run.trace();
         Ok(Advanced {
-            frames: self.watch.made.take().unwrap_or_default(),
             ticks: trace.ticks.len(),
             time: trace.ticks.last().map_or(0.0, |tick| tick.time),
             has_ended: self.ending.is_some(),
             breakpoint: self.watch.hit.clone(),
         })
+    }
+
+    /// Takes the frames that have been made since they were taken last.
+    pub(crate) fn take_frames(&mut self) -> Vec<Frame> {
+        std::mem::take(&mut self.watch.made)
     }
 
     /// The ticks until now, as lines of JSON.
@@ -287,7 +293,7 @@ impl Watcher for Watch {
     }
 
     fn after_tick(&mut self, trace: &Trace) -> ControlFlow<()> {
-        if let Some(made) = &mut self.made {
+        if self.is_watched {
             let facts = &self.facts;
             (_, self.hit) = self.shadow.tick(&self.samples);
             let frame = self.frames.frame(trace, (&self.shadow, &facts.numbers, &facts.hello.chart), None);
@@ -296,7 +302,7 @@ impl Watcher for Watch {
                 let taken = frame.taken.last().copied();
                 self.results.push(TickResult { time: tick.time, state, taken, command: tick.command });
                 self.past.push(&self.samples);
-                made.push(Arc::new(frame));
+                self.made.push(frame);
             }
         }
         ControlFlow::Continue(())

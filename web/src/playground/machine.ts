@@ -24,16 +24,20 @@ export class Machine {
     return new Machine(instance.exports as unknown as Exports);
   }
 
-  /** Answers a request. A fault of the request is an exception. */
-  ask<Answer>(request: object): Answer {
+  /** The answer to a request, as a JSON text. */
+  text(request: object): string {
     const bytes = new TextEncoder().encode(JSON.stringify(request));
     const { memory, reserve, answer, answered } = this.#exports;
     // The memory has another buffer after it has grown, so each address comes first.
     const address = reserve(bytes.length);
     new Uint8Array(memory.buffer, address, bytes.length).set(bytes);
     const length = answer();
-    const text = new TextDecoder().decode(new Uint8Array(memory.buffer, answered(), length));
-    const value = JSON.parse(text) as Answer & { error?: string };
+    return new TextDecoder().decode(new Uint8Array(memory.buffer, answered(), length));
+  }
+
+  /** Answers a request. A fault of the request is an exception. */
+  ask<Answer>(request: object): Answer {
+    const value = JSON.parse(this.text(request)) as Answer & { error?: string };
     if (value !== null && typeof value === "object" && typeof value.error === "string") {
       throw new Refusal(value.error);
     }

@@ -93,6 +93,8 @@ export type ToWorker =
 export type FromWorker =
   | { type: "ready"; catalog: Catalog }
   | { type: "live"; message: ServerMessage }
+  /** Frames as a JSON text, which the page reads while the worker goes on. */
+  | { type: "frames"; text: string }
   | { type: "language"; messages: LanguageMessage[] }
   | { type: "answered"; id: number; answer: unknown; error: string | undefined }
   | { type: "refused"; run: number; error: string }

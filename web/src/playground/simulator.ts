@@ -1,3 +1,4 @@
+import type { Frame } from "../live/protocol.ts";
 import type { FromWorker, Question, ToWorker } from "./messages.ts";
 
 /** The number of looks, one a second, after which a worker that does not answer is ended. */
@@ -79,6 +80,7 @@ export class Simulator {
         case "broken": this.#end(this.#isReady ? `The simulation broke off: ${data.error}. Press run to try again.` : `The simulation cannot be loaded: ${data.error}. Load the page again.`); return;
         case "answered": this.#answered(data.id, data.answer, data.error); return;
         case "refused": this.#isStarting = false; break;
+        case "frames": this.#receive({ type: "live", message: { type: "ticks", lost: 0, frames: JSON.parse(data.text) as Frame[] } }); return;
         case "live": this.#isStarting &&= data.message.type !== "hello";
       }
       this.#receive(data);

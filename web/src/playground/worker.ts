@@ -1,4 +1,4 @@
-import type { BreakpointInfo, Frame, Hello, Kind, Metrics, PageMessage, Piece, Status } from "../live/protocol.ts";
+import type { BreakpointInfo, Hello, Kind, Metrics, PageMessage, Piece, Status } from "../live/protocol.ts";
 import { Machine, Refusal } from "./machine.ts";
 import type { Catalog, FromWorker, LanguageMessage, Question, Result, Start, ToWorker } from "./messages.ts";
 
@@ -19,7 +19,6 @@ const COMPARED = 120;
 const MOST_BREAKPOINTS = 64;
 
 interface Advanced {
-  frames: Frame[];
   ticks: number;
   time: number;
   has_ended: boolean;
@@ -209,10 +208,11 @@ class Worker {
   /** Simulates ticks and shows them. */
   #advance(ticks: number): void {
     const before = performance.now();
-    const { frames, ticks: count, time, has_ended: hasEnded, breakpoint } = this.#machine.ask<Advanced>({ type: "advance", ticks });
+    const { ticks: count, time, has_ended: hasEnded, breakpoint } = this.#machine.ask<Advanced>({ type: "advance", ticks });
     [this.#ticks, this.#time] = [count, time];
+    const text = this.#machine.text({ type: "frames" });
     this.#used += performance.now() - before;
-    scope.postMessage({ type: "live", message: { type: "ticks", lost: 0, frames } });
+    scope.postMessage({ type: "frames", text });
     if (hasEnded) {
       const { result, picture, verdict, metrics } = this.#machine.ask<Scored>({ type: "score" });
       this.#state = "finished";
