@@ -373,7 +373,8 @@
         this.#path.append(element("code", "", ` is ${this.#level.behaviour}`));
       }
       if (focused === this.#svg) {
-        this.#boxes.values().next().value?.focus();
+        const first = this.#boxes.values().next().value;
+        (this.#chosen === void 0 ? first : this.#boxes.get(this.#chosen))?.focus();
       } else if (focused === this.#path) {
         this.#path.querySelector("[aria-current]")?.focus();
       }
@@ -383,14 +384,28 @@
       const node = item instanceof Node ? item : void 0;
       const fill = isOutside || node === void 0 ? "none" : run.shades.of(node.index);
       const group = svg("g", { class: isOutside ? "box outside" : "box", transform: `translate(${x} ${y})` }, svg("rect", { width, height, rx: 6, fill }), svg("text", { x: width / 2, y: height / 2 + 4.5, "text-anchor": "middle" }, label(item)));
-      if (isOutside || node === void 0) {
-        group.append(svg("title", {}, node === void 0 ? `end of the run: ${String(item)}` : node.fullName));
+      if (node === void 0) {
+        group.append(svg("title", {}, `end of the run: ${String(item)}`));
+        return group;
+      }
+      set(group, { tabindex: 0, role: "button" });
+      if (isOutside) {
+        set(group, { "aria-label": `${node.fullName}, outside of ${this.#level.name}; go there` });
+        group.append(svg("title", {}, `go to ${node.fullName}`));
+        const go = () => this.#enter(node.parent, node);
+        group.addEventListener("click", go);
+        group.addEventListener("keydown", (event) => {
+          if (event.key === "Enter") {
+            event.preventDefault();
+            event.stopPropagation();
+            go();
+          }
+        });
         return group;
       }
       if (node.isInitial) {
         group.prepend(svg("path", { class: "arrow", d: `M-10 ${height / 2}h9`, "marker-end": "url(#head)" }), svg("circle", { class: "initial", cx: -11, cy: height / 2, r: 3 }));
       }
-      set(group, { tabindex: 0, role: "button" });
       group.append(svg("circle", { class: "break", cx: width - 3, cy: 3, r: 5 }));
       group.addEventListener("click", () => this.#choose(node));
       group.addEventListener("dblclick", () => this.#open(node));
@@ -465,9 +480,9 @@
         this.#enter(node);
       }
     }
-    #enter(level) {
+    #enter(level, chosen) {
       if (level !== void 0) {
-        [this.#level, this.#chosen] = [level, void 0];
+        [this.#level, this.#chosen] = [level, chosen];
         this.#setFollowing(false);
       }
     }
@@ -820,6 +835,37 @@
     }
   };
 
+  // src/live/time-axis.ts
+  var TimeAxis = class {
+    from;
+    to;
+    left;
+    right;
+    constructor(from, to, left, right) {
+      [this.from, this.to, this.left, this.right] = [from, Math.max(to, from + 1e-3), left, right];
+    }
+    x(time) {
+      return this.left + (time - this.from) / (this.to - this.from) * (this.right - this.left);
+    }
+    time(x) {
+      return this.from + (x - this.left) / (this.right - this.left) * (this.to - this.from);
+    }
+  };
+  function roundStep(least) {
+    const power = 10 ** Math.floor(Math.log10(least));
+    return power * ([1, 2, 5, 10].find((factor) => factor * power >= least * 0.999) ?? 10);
+  }
+  function ticksOf(low, high, count) {
+    const raw = (high - low) / count;
+    if (!(raw > 0) || !Number.isFinite(raw)) {
+      return [];
+    }
+    const step = roundStep(raw);
+    const first = Math.ceil(low / step - 1e-9);
+    const last = Math.floor(high / step + 1e-9);
+    return Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
+  }
+
   // src/live/parameter-field.ts
   var STEPS = 200;
   var ParameterField = class {
@@ -863,7 +909,8 @@
         this.#slider.type = "range";
         this.#slider.min = String(low);
         this.#slider.max = String(high);
-        this.#slider.step = String((high - low) / STEPS || 1);
+        const steps = (high - low) / this.#factor / STEPS;
+        this.#slider.step = String(steps > 0 ? roundStep(steps) * this.#factor : 1);
         this.#slider.setAttribute("aria-label", label2);
         this.#slider.addEventListener("input", () => this.#set(Number(this.#slider.value)));
         fields.append(this.#number, element("span", "unit", scale.unit), this.#slider);
@@ -933,34 +980,6 @@
       kept.push(span);
     }
     return kept;
-  }
-
-  // src/live/time-axis.ts
-  var TimeAxis = class {
-    from;
-    to;
-    left;
-    right;
-    constructor(from, to, left, right) {
-      [this.from, this.to, this.left, this.right] = [from, Math.max(to, from + 1e-3), left, right];
-    }
-    x(time) {
-      return this.left + (time - this.from) / (this.to - this.from) * (this.right - this.left);
-    }
-    time(x) {
-      return this.from + (x - this.left) / (this.right - this.left) * (this.to - this.from);
-    }
-  };
-  function ticksOf(low, high, count) {
-    const raw = (high - low) / count;
-    if (!(raw > 0) || !Number.isFinite(raw)) {
-      return [];
-    }
-    const power = 10 ** Math.floor(Math.log10(raw));
-    const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999) ?? 10);
-    const first = Math.ceil(low / step - 1e-9);
-    const last = Math.floor(high / step + 1e-9);
-    return Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
   }
 
   // src/live/counterfactual.ts

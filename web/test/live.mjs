@@ -92,8 +92,12 @@ await serve(run, async (address) => {
     const inner = await page.evaluate(() => document.activeElement.getAttribute("aria-label").split(",")[0]);
     await page.keyboard.press("Enter");
     await page.waitForFunction((inner) => document.querySelector(".path [aria-current]").textContent === inner, inner);
-    await page.keyboard.press("u");
+    // A state outside of the level, with a dashed frame, leads to the level that has it.
+    await tabTo(page, ".box.outside[role=button]");
+    const outside = await page.evaluate(() => document.activeElement.getAttribute("aria-label").split(",")[0]);
+    await page.keyboard.press("Enter");
     await page.waitForFunction((outer) => document.querySelector(".path [aria-current]").textContent === outer, outer);
+    assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label").split(",")[0]), outside);
 
     // A guard has a distance and a plot.
     await tabTo(page, ".guards button[aria-label^='plot']");

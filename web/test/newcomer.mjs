@@ -106,6 +106,8 @@ async function checkVerdicts(address) {
     await page.waitForFunction(() => /^error in line 5: /.test(document.querySelector(".listed li")?.textContent ?? ""));
     await page.click(".bar .primary");
     await page.waitForFunction(() => document.querySelector("pre.fault").textContent.includes("error[P"));
+    assert.equal(await content(page, ".notice"), "This run cannot begin. What you see is still the one before.");
+    assert.equal(await page.evaluate(() => document.querySelector("pre.fault").previousElementSibling.className), "listed");
     assert.equal(await content(page, ".lesson-verdict"), "");
     assert.ok(await page.isDisabled('.tools >> text="result"'));
     const [saved] = await Promise.all([page.waitForEvent("download"), page.click('.tools >> text="policy"')]);

@@ -89,7 +89,8 @@ export class ChartPanel implements Panel {
       this.#path.append(element("code", "", ` is ${this.#level.behaviour}`));
     }
     if (focused === this.#svg) {
-      this.#boxes.values().next().value?.focus();
+      const first = this.#boxes.values().next().value;
+      (this.#chosen === undefined ? first : this.#boxes.get(this.#chosen))?.focus();
     } else if (focused === this.#path) {
       this.#path.querySelector<HTMLElement>("[aria-current]")?.focus();
     }
@@ -100,14 +101,28 @@ export class ChartPanel implements Panel {
     const node = item instanceof Node ? item : undefined;
     const fill = isOutside || node === undefined ? "none" : run.shades.of(node.index);
     const group = svg("g", { class: isOutside ? "box outside" : "box", transform: `translate(${x} ${y})` }, svg("rect", { width, height, rx: 6, fill }), svg("text", { x: width / 2, y: height / 2 + 4.5, "text-anchor": "middle" }, label(item)));
-    if (isOutside || node === undefined) {
-      group.append(svg("title", {}, node === undefined ? `end of the run: ${String(item)}` : node.fullName));
+    if (node === undefined) {
+      group.append(svg("title", {}, `end of the run: ${String(item)}`));
+      return group;
+    }
+    set(group, { tabindex: 0, role: "button" });
+    if (isOutside) {
+      set(group, { "aria-label": `${node.fullName}, outside of ${this.#level.name}; go there` });
+      group.append(svg("title", {}, `go to ${node.fullName}`));
+      const go = (): void => this.#enter(node.parent, node);
+      group.addEventListener("click", go);
+      group.addEventListener("keydown", (event) => {
+        if (event.key === "Enter") {
+          event.preventDefault();
+          event.stopPropagation();
+          go();
+        }
+      });
       return group;
     }
     if (node.isInitial) {
       group.prepend(svg("path", { class: "arrow", d: `M-10 ${height / 2}h9`, "marker-end": "url(#head)" }), svg("circle", { class: "initial", cx: -11, cy: height / 2, r: 3 }));
     }
-    set(group, { tabindex: 0, role: "button" });
     group.append(svg("circle", { class: "break", cx: width - 3, cy: 3, r: 5 }));
     group.addEventListener("click", () => this.#choose(node));
     group.addEventListener("dblclick", () => this.#open(node));
@@ -188,9 +203,9 @@ export class ChartPanel implements Panel {
     }
   }
 
-  #enter(level: Node | undefined): void {
+  #enter(level: Node | undefined, chosen?: Node): void {
     if (level !== undefined) {
-      [this.#level, this.#chosen] = [level, undefined];
+      [this.#level, this.#chosen] = [level, chosen];
       this.#setFollowing(false);
     }
   }

@@ -1,8 +1,9 @@
 import { element } from "../shared/element.ts";
 import type { ParameterInfo } from "./protocol.ts";
 import { digits, scaleOf } from "./quantity.ts";
+import { roundStep } from "./time-axis.ts";
 
-/** The number of positions of a slider. */
+/** The largest number of steps of a slider. */
 const STEPS = 200;
 
 /** The fields of a value that a counterfactual may change. */
@@ -48,7 +49,8 @@ export class ParameterField {
       this.#slider.type = "range";
       this.#slider.min = String(low);
       this.#slider.max = String(high);
-      this.#slider.step = String((high - low) / STEPS || 1);
+      const steps = (high - low) / this.#factor / STEPS;
+      this.#slider.step = String(steps > 0 ? roundStep(steps) * this.#factor : 1);
       this.#slider.setAttribute("aria-label", label);
       this.#slider.addEventListener("input", () => this.#set(Number(this.#slider.value)));
       fields.append(this.#number, element("span", "unit", scale.unit), this.#slider);

@@ -18,14 +18,19 @@ export class TimeAxis {
   }
 }
 
+/** The smallest of 1, 2 and 5 times a power of ten that is at least a positive number. */
+export function roundStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return power * ([1, 2, 5, 10].find((factor) => factor * power >= least * 0.999) ?? 10);
+}
+
 /** Round numbers within a range, about `count` of them. */
 export function ticksOf(low: number, high: number, count: number): number[] {
   const raw = (high - low) / count;
   if (!(raw > 0) || !Number.isFinite(raw)) {
     return [];
   }
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999) ?? 10);
+  const step = roundStep(raw);
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
   return Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);

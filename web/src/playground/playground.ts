@@ -46,6 +46,7 @@ export class Playground {
   readonly #notice = element("p", "notice");
   readonly #problems = element("p", "hint problems");
   readonly #listed = element("ul", "listed");
+  readonly #details = element("details");
   readonly #saves = element("div", "tools");
   readonly #results = [button("result", () => this.#save("json"), "download the result as JSON"), button("picture", () => this.#save("svg"), "download the picture of the run")];
   readonly #outdated = element("span", "hint", "Result and picture are from the previous text. Run the present one to save them.");
@@ -69,6 +70,8 @@ export class Playground {
   #running: Running = { number: 0, start: { policy: "", scenario: "", set: {} }, isOfReader: false };
   #last: { result: Result; picture: string; start: Start } | undefined;
   #timer: number | undefined;
+  /** True if the page shows a run. */
+  #hasBegun = false;
 
   constructor(root: HTMLElement) {
     [this.#root, this.#loading] = [root, root.querySelector(".loading")];
@@ -117,7 +120,7 @@ export class Playground {
       case "language": this.#language.receive(message.messages); break;
       case "refused":
         if (message.run === this.#running.number) {
-          this.#fault.textContent = message.error;
+          this.#refuse(message.error);
         }
         break;
       case "scored":
@@ -171,10 +174,10 @@ export class Playground {
       this.#load(policy, scenes.named(scene) ?? "");
       this.#start(false);
     });
-    const details = element("details", "", element("summary", "", "Scenario"), scenarioBox);
+    this.#details.append(element("summary", "", "Scenario"), scenarioBox);
     this.#shapes.element.addEventListener("toggle", () => void this.#showShapes());
     const live = element("div", "live");
-    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#listed, this.#fault, this.#shapes.element, details, this.#parameters.element);
+    const left = element("div", "column write", this.#lessons.element, element("section", "", element("div", "head", element("h2", "", "Policy"), this.#problems), policyBox), this.#listed, this.#fault, this.#shapes.element, this.#details, this.#parameters.element);
     const right = element("div", "column", scene, this.#score.element, this.#saves);
     // The introduction is part of the document, so that there is something to read before the module is there.
     this.#loading?.remove();
@@ -217,6 +220,17 @@ export class Playground {
         this.#tell("This is your policy of the last visit. The list of policies has the others.");
       }
       this.#refuseLink();
+    }
+  }
+
+  /** Shows why a run cannot begin, below the text that is wrong. */
+  #refuse(error: string): void {
+    this.#fault.textContent = error;
+    const isScenario = error.includes("scenario.yaml");
+    (isScenario ? this.#details : this.#listed).after(this.#fault);
+    this.#details.open ||= isScenario;
+    if (this.#hasBegun) {
+      this.#tell("This run cannot begin. What you see is still the one before.");
     }
   }
 
@@ -365,6 +379,7 @@ export class Playground {
   }
 
   #begin(hello: Hello): void {
+    this.#hasBegun = true;
     this.#shapes.begin(hello);
     this.#parameters.show(hello.parameters.filter(({ guard }) => guard === null));
     if (this.#compared !== this.#running.start.scenario) {
