@@ -187,7 +187,9 @@ fn maps_have_the_same_bits_on_every_target() -> Result<(), Box<dyn std::error::E
             map.seek_route(target);
         }
         for pose in target.into_iter().chain(map.route().iter().map(|step| step.pose)) {
-            [pose.position.x, pose.position.y, pose.heading].into_iter().for_each(|value| bits.add(value));
+            for value in [pose.position.x, pose.position.y, pose.heading] {
+                bits.add(value);
+            }
         }
         routes += u32::from(map.route_status() == RouteStatus::Found);
         bits.add(map.free_area());
