@@ -123,7 +123,7 @@ impl Control {
             map.update(&self.perception, self.perception.pose(), self.command);
         }
         let command = self.steering.command(&tick.action, self.perception.pose_at_effect());
-        let command = self.servo_lead.next(command, self.perception.servo());
+        let command = self.servo_lead.next(command, self.perception.servos());
         self.replace_command(command);
         (command, tick)
     }

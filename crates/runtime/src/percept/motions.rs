@@ -1,5 +1,7 @@
 //! The measured delays and errors of poses and commands.
 
+use nalgebra::Vector3;
+
 use crate::geometry::Pose;
 use crate::math;
 use crate::rig::{Estimation, Rig};
@@ -107,9 +109,9 @@ impl Motions {
         if self.estimation.pose_noise { self.noise.deviation() } else { PoseDeviation::default() }
     }
 
-    /// Time constant (s) of the servos, if it is not the one of the rig.
-    pub(super) fn servo(&self) -> Option<f64> {
-        self.platform.servo().filter(|_| self.estimation.delay)
+    /// Measured time constants (s) of the servos: x, y, yaw. `None` if they are those of the rig.
+    pub(super) fn servos(&self) -> Option<Vector3<f64>> {
+        self.platform.servos().filter(|_| self.estimation.delay)
     }
 
     /// Delay (s) of a measured pose behind its command.
@@ -121,7 +123,7 @@ impl Motions {
     /// rig states.
     pub(super) fn expected(&self, period: f64) -> Option<Motion> {
         let delay = self.delay();
-        let is_as_stated = delay == 0.0 && self.servo().is_none();
+        let is_as_stated = delay == 0.0 && self.servos().is_none();
         (!is_as_stated).then(|| self.platform.between(delay + period, delay))
     }
 }

@@ -4,6 +4,8 @@ mod senses;
 
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use crate::geometry::{Frame, Point2, Pose};
 use crate::machine::{ContactEstimatorKind, Keypoints, Mark, PositionContour};
 use crate::math;
@@ -68,8 +70,8 @@ pub struct Perception {
     kept_for: f64,
     /// Period of a tick (s) according to the rig.
     tick: f64,
-    /// Time constant of the servos (s) according to the rig.
-    servo: f64,
+    /// Time constants of the servos (s) according to the rig: x, y, yaw.
+    servos: Vector3<f64>,
 }
 
 /// An error of constructing the perception of a rig.
@@ -195,7 +197,7 @@ impl Perception {
             pose_silent_for: f64::INFINITY,
             kept_for: 0.0,
             tick: sensing.control_rate.recip(),
-            servo: rig.platform.servo,
+            servos: rig.platform.servos(),
             offsets: sensing.estimation.offset.then(|| Offsets::new(rig.whiskers.len())),
         })
     }
@@ -362,11 +364,10 @@ impl Perception {
         self.at_effect
     }
 
-    /// Measured time constant (s) of the servos for velocities, or that of the rig. That for yaw rates has the same ratio to the
-    /// one of the rig.
+    /// Measured time constants (s) of the servos, or those of the rig: x, y, yaw.
     #[must_use]
-    pub fn servo(&self) -> f64 {
-        self.motions.as_deref().and_then(Motions::servo).unwrap_or(self.servo)
+    pub fn servos(&self) -> Vector3<f64> {
+        self.motions.as_deref().and_then(Motions::servos).unwrap_or(self.servos)
     }
 
     /// Filtered base angle (rad) of a whisker, or NaN in a tick without a valid reading.

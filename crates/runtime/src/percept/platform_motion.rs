@@ -1,4 +1,4 @@
-//! The motion of the platform by its commands: its measured delay and servo.
+//! The motion of the platform by its commands: its measured delay and servos.
 
 use nalgebra::Vector3;
 
@@ -12,17 +12,16 @@ pub(super) type Motion = Vector3<f64>;
 
 /// Measures how the platform follows its commands.
 ///
-/// A platform follows a command after a delay, with the time constant of its servos. Expected motions for a grid of both
-/// are compared with measured poses. The expected motions of a servo are the same for all delays, but later. So they are
-/// computed once for each servo and remembered.
+/// A platform follows a command after a delay, with the time constants of its servos. Expected motions for a grid of delays
+/// and time constants are compared with measured poses. The expected motions of a servo are the same for all delays, but
+/// later. So they are computed once for each servo and remembered. The servos of translation and rotation differ, and the
+/// delay is common to both.
 #[derive(Debug, Clone)]
 pub(super) struct PlatformMotion {
     /// Time between ticks and between steps (s), and the number of steps in a tick.
     period: f64,
     step: f64,
     steps: usize,
-    /// Time constants (s) of the grid for velocities.
-    times: EachServo,
     /// Share of the speed difference that is left after a step, the equivalent time (s) at that difference, and the speed, by
     /// coordinate.
     left: [EachServo; 3],
@@ -33,27 +32,29 @@ pub(super) struct PlatformMotion {
     /// Index of the newest step in the memory of motions, and the number of steps since the last gap.
     newest: usize,
     known: usize,
-    /// Averages of squared differences (m²), by delay.
-    costs: [EachServo; DELAYS],
+    /// Averages of squared differences (m²), by delay, of translation and rotation.
+    costs: [[EachServo; 2]; DELAYS],
     /// Pose of the last tick, or unknown.
     pose: Pose,
     /// The current command.
     command: Command,
-    /// Time constant of the servos (s) for velocities according to the rig, and as measured. That for yaw rates has the same
-    /// ratio to the one of the rig, because one number for both is measured sooner.
-    stated_servo: f64,
-    servo: f64,
+    /// Time constants (s) of the servos of translation and rotation according to the rig, and as measured. And the index of the
+    /// nearest one of the grid.
+    stated: [f64; 2],
+    servos: [f64; 2],
+    nearest: [usize; 2],
     /// Measured delay (s) of a pose behind its command.
     delay: f64,
-    /// True if delay and servo hardly change any more.
+    /// True if delay and servos hardly change any more.
     is_settled: bool,
 }
 
 /// A value for each servo of the grid, fastest first. Neighbouring values let one instruction compute several of them.
 type EachServo = [f64; SERVOS.len()];
 
-/// Time constants of the grid over that of the rig, and the index of the rig's one.
-const SERVOS: [f64; 8] = [
+/// Time constants of the grid over that of the rig, and the index of the rig's one. Two of them are a factor of 2.
+const SERVOS: [f64; 12] = [
+    0.5 * std::f64::consts::FRAC_1_SQRT_2,
     0.5,
     std::f64::consts::FRAC_1_SQRT_2,
     1.0,
@@ -62,8 +63,11 @@ const SERVOS: [f64; 8] = [
     2.0 * std::f64::consts::SQRT_2,
     4.0,
     4.0 * std::f64::consts::SQRT_2,
+    8.0,
+    8.0 * std::f64::consts::SQRT_2,
+    16.0,
 ];
-const STATED: usize = 2;
+const STATED: usize = 3;
 /// Wanted time between steps (s), and the most steps in a tick.
 const STEP: f64 = 1.0 / 300.0;
 const MOST_STEPS: usize = 15;
@@ -97,9 +101,9 @@ impl PlatformMotion {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let steps = ((period / STEP).round() as usize).clamp(1, MOST_STEPS);
         let step = period / steps as f64;
-        let stated = rig.platform.servos();
-        let stated_servo = stated.x;
-        let times = <[f64; 3]>::from(stated).map(|stated| SERVOS.map(|factor| factor * stated));
+        let servos = rig.platform.servos();
+        let stated = [servos.x, servos.z];
+        let times = <[f64; 3]>::from(servos).map(|stated| SERVOS.map(|factor| factor * stated));
         let left = times.map(|times| times.map(|time| math::exp(-step / time)));
         let behind = [0, 1, 2].map(|axis| std::array::from_fn(|servo| times[axis][servo] * (1.0 - left[axis][servo])));
         let none = [[0.0; SERVOS.len()]; 3];
@@ -107,18 +111,18 @@ impl PlatformMotion {
             period,
             step,
             steps,
-            times: times[0],
             left,
             behind,
             speed: none,
             motions: [none; MEMORY],
             newest: 0,
             known: 0,
-            costs: [[0.0; SERVOS.len()]; DELAYS],
+            costs: [[[0.0; SERVOS.len()]; 2]; DELAYS],
             pose: Pose::UNKNOWN,
             command: Command::STOP,
-            stated_servo,
-            servo: stated_servo,
+            stated,
+            servos: stated,
+            nearest: [STATED; 2],
             delay: 0.0,
             is_settled: false,
         }
@@ -129,9 +133,11 @@ impl PlatformMotion {
         self.command = command;
     }
 
-    /// Measured time constant of the servos (s) for velocities, if it is not the stated one.
-    pub(super) fn servo(&self) -> Option<f64> {
-        ((self.servo - self.stated_servo).abs() > NEAR * self.stated_servo).then_some(self.servo)
+    /// Measured time constants of the servos (s): x, y, yaw. `None` if they are the stated ones.
+    pub(super) fn servos(&self) -> Option<Vector3<f64>> {
+        let [servo, yaw_servo] = self.servos;
+        let differs = self.servos.iter().zip(self.stated).any(|(servo, stated)| (servo - stated).abs() > NEAR * stated);
+        differs.then(|| Vector3::new(servo, servo, yaw_servo))
     }
 
     /// Delay (s) of measured poses behind their commands. It does not include the servos.
@@ -183,10 +189,11 @@ impl PlatformMotion {
             let end = &self.motions[earlier(self.newest, back)];
             let start = &self.motions[earlier(self.newest, back + self.steps)];
             let missing = |axis: usize, servo: usize| measured[axis] - (end[axis][servo] - start[axis][servo]);
-            for (servo, cost) in costs.iter_mut().enumerate() {
+            let [translation, rotation] = costs;
+            for servo in 0..SERVOS.len() {
                 let (x, y) = (missing(0, servo), missing(1, servo));
-                let squared = (x * x + y * y) + math::square(ARM * missing(2, servo));
-                *cost = *cost * REMEMBERED + squared;
+                translation[servo] = translation[servo] * REMEMBERED + (x * x + y * y);
+                rotation[servo] = rotation[servo] * REMEMBERED + math::square(ARM * missing(2, servo));
             }
         }
         self.estimate();
@@ -194,37 +201,49 @@ impl PlatformMotion {
         Some([expected, measured - expected])
     }
 
-    /// Follows the servo and the delay with the smallest differences, if they are significant.
+    /// Follows the servos and the delay with the smallest differences, if they are significant.
     fn estimate(&mut self) {
-        let stated = self.costs[0][STATED];
-        let least = self.costs.iter().flatten().copied().fold(stated, math::min);
-        if stated < LEAST_COST || least > MOST_LEFT * stated {
+        let least = self.costs.map(|kinds| kinds.map(|costs| costs.into_iter().fold(costs[STATED], math::min)));
+        let stated = self.costs[0].map(|costs| costs[STATED]);
+        let (mut at, mut best) = (0, least[0][0] + least[0][1]);
+        for (delay, [translation, rotation]) in least.into_iter().enumerate() {
+            if translation + rotation < best {
+                (at, best) = (delay, translation + rotation);
+            }
+        }
+        if !is_shown(best, stated[0] + stated[1]) {
             self.is_settled = false;
             return;
         }
-        let (mut best, mut at) = (stated, (STATED, 0));
-        for servo in 0..SERVOS.len() {
-            for (delay, costs) in self.costs.iter().enumerate() {
-                if costs[servo] < best {
-                    (best, at) = (costs[servo], (servo, delay));
-                }
-            }
-        }
-        let by_delay = |delay: usize| self.costs[delay][at.0];
-        let by_servo = |servo: usize| self.costs[at.1][servo];
-        let delay = (at.1 as f64 + vertex(at.1, DELAYS, by_delay)) * (DELAY_STEPS as f64 * self.step);
-        // The grid is logarithmic, with two servos for a factor of 2.
-        let ratio = math::powf(2.0, (at.0 as f64 + vertex(at.0, SERVOS.len(), by_servo) - STATED as f64) / 2.0);
+        let by_delay = |delay: usize| least[delay][0] + least[delay][1];
+        let delay = (at as f64 + vertex(at, DELAYS, by_delay)) * (DELAY_STEPS as f64 * self.step);
         let delay = if delay < LEAST_DELAY { 0.0 } else { delay };
-        let ratio = if ratio < LEAST_RATIO && ratio * LEAST_RATIO > 1.0 { 1.0 } else { ratio };
-        let servo = ratio * self.stated_servo;
-        self.is_settled = (delay - self.delay).abs() < SETTLED.0 && (servo - self.servo).abs() < SETTLED.1 * servo;
+        self.is_settled = (delay - self.delay).abs() < SETTLED.0;
         let share = math::min(self.period / FOLLOWING, 1.0);
         self.delay += (delay - self.delay) * share;
-        self.servo += (servo - self.servo) * share;
+        for kind in [0, 1] {
+            // A platform that only translates shows nothing of its other servo.
+            if !is_shown(least[at][kind], stated[kind]) {
+                continue;
+            }
+            let costs = &self.costs[at][kind];
+            let servo =
+                (0..SERVOS.len()).fold(STATED, |best, servo| if costs[servo] < costs[best] { servo } else { best });
+            // The grid is logarithmic, with two servos for a factor of 2.
+            let along = servo as f64 + vertex(servo, SERVOS.len(), |servo| costs[servo]) - STATED as f64;
+            let ratio = math::powf(2.0, along / 2.0);
+            let ratio = if ratio < LEAST_RATIO && ratio * LEAST_RATIO > 1.0 { 1.0 } else { ratio };
+            let servo = ratio * self.stated[kind];
+            self.is_settled &= (servo - self.servos[kind]).abs() < SETTLED.1 * servo;
+            self.servos[kind] += (servo - self.servos[kind]) * share;
+            let ratio = self.servos[kind] / self.stated[kind];
+            let off = |index: usize| (SERVOS[index] - ratio).abs();
+            self.nearest[kind] =
+                (0..SERVOS.len()).fold(STATED, |best, servo| if off(servo) < off(best) { servo } else { best });
+        }
     }
 
-    /// True if delay and servo hardly change any more.
+    /// True if delay and servos hardly change any more.
     pub(super) fn is_settled(&self) -> bool {
         self.is_settled
     }
@@ -239,24 +258,27 @@ impl PlatformMotion {
 
     /// The expected motion from `from` to `to` (s) before the newest step.
     pub(super) fn between(&self, from: f64, to: f64) -> Motion {
-        let nearest = self.times.iter().enumerate().min_by(|(_, a), (_, b)| {
-            let distance = |time: f64| (time - self.servo).abs();
-            distance(**a).total_cmp(&distance(**b))
-        });
-        nearest.map_or_else(Motion::zeros, |(servo, _)| self.motion(servo, to) - self.motion(servo, from))
+        self.motion(to) - self.motion(from)
     }
 
-    /// The motion of a servo up to `ago` (s) before the newest step, interpolated between steps.
-    fn motion(&self, servo: usize, ago: f64) -> Motion {
+    /// The expected motion up to `ago` (s) before the newest step, interpolated between steps.
+    fn motion(&self, ago: f64) -> Motion {
         let along = (ago / self.step).clamp(0.0, (MEMORY - 2) as f64);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the memory")]
         let whole = along as usize;
+        let [servo, yaw_servo] = self.nearest;
         let at = |step: usize| {
             let [x, y, turn] = &self.motions[earlier(self.newest, step)];
-            Motion::new(x[servo], y[servo], turn[servo])
+            Motion::new(x[servo], y[servo], turn[yaw_servo])
         };
         at(whole).lerp(&at(whole + 1), along - whole as f64)
     }
+}
+
+/// True if the `least` sum of squared differences (m²) shows that the delay or a servo is not the stated one, which leaves
+/// `stated`.
+fn is_shown(least: f64, stated: f64) -> bool {
+    stated >= LEAST_COST && least <= MOST_LEFT * stated
 }
 
 /// The index of the step so many steps before `newest`.
@@ -321,17 +343,20 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(24))]
 
         #[test]
-        fn delay_and_servo_are_found(
-            commands in commands(), delay in 0.02..0.12_f64, ratio in 1.0..4.5_f64, yaw_servo in prop::option::of(0.02..0.1_f64),
+        fn the_delay_and_both_servos_are_found(
+            commands in commands(), delay in 0.02..0.12_f64, servo in 0.02..0.7_f64, yaw_servo in 0.02..0.7_f64,
         ) {
-            let mut rig = Rig::default();
-            rig.platform.yaw_servo = yaw_servo;
-            let servo = ratio * rig.platform.servo;
-            let platform = measured(&rig, &commands, delay, ratio * rig.platform.servos());
-            let found = platform.servo().unwrap_or(0.05);
+            let platform = measured(&Rig::default(), &commands, delay, Motion::new(servo, servo, yaw_servo));
+            let found = platform.servos().unwrap_or(Rig::default().platform.servos());
             prop_assert!((platform.delay() - delay).abs() < 0.015, "{} s, {delay} s", platform.delay());
-            prop_assert!((0.75..1.3).contains(&(found / servo)), "{found} s, {servo} s");
-            prop_assert!((platform.delay() + found - delay - servo).abs() < 0.02);
+            for (found, servo) in [(found.x, servo), (found.z, yaw_servo)] {
+                // A servo that is faster than a tick looks like a delay. The grid has two servos for a factor of 2.
+                if servo > 0.034 {
+                    prop_assert!((0.75..1.3).contains(&(found / servo)), "{found} s, {servo} s");
+                } else {
+                    prop_assert!((platform.delay() + found - delay - servo).abs() < 0.02, "{found} s, {servo} s");
+                }
+            }
         }
 
         #[test]
@@ -339,7 +364,7 @@ mod tests {
             let rig = Rig::default();
             let platform = measured(&rig, &commands, 0.0, rig.platform.servos());
             prop_assert_eq!(platform.delay().to_bits(), 0.0_f64.to_bits());
-            prop_assert_eq!(platform.servo(), None);
+            prop_assert_eq!(platform.servos(), None);
         }
     }
 }
