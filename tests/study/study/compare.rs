@@ -1,6 +1,8 @@
 //! Paired differences against closed forms and against chance, and starts that vary.
 #![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test may panic, and what is exact is compared exactly")]
 
+use std::cmp::Ordering;
+
 use crate::runs::{arc_of_tips, run_with};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
@@ -72,6 +74,28 @@ proptest! {
             };
             prop_assert_eq!(there.outlook, opposite);
         }
+    }
+}
+
+proptest! {
+    #[test]
+    fn completed_runs_differ_if_the_sign_test_says_so(gained in 0_i32..15, lost in 0_i32..15, same in 2_i32..30) {
+        let several = |pair: (f64, f64), count: i32| (0..count).map(move |_| pair);
+        let pairs = several((0.0, 1.0), gained).chain(several((1.0, 0.0), lost)).chain(several((1.0, 1.0), same)).collect();
+        let compared = FigureComparison::new(&figure("completed"), "other", pairs).unwrap();
+        // The probability of so uneven a split of the pairs that differ, by the binomial distribution itself.
+        let differing = gained + lost;
+        let ways = |count: i32| (0..count).map(|i| f64::from(differing - i) / f64::from(count - i)).product::<f64>();
+        let tail: f64 = (0..=gained.min(lost)).map(|count| ways(count) * 0.5_f64.powi(differing)).sum();
+        let outlook = match gained.cmp(&lost) {
+            _ if differing == 0 => Outlook::Same,
+            Ordering::Greater if 2.0 * tail < 0.05 => Outlook::Better,
+            Ordering::Less if 2.0 * tail < 0.05 => Outlook::Worse,
+            _ => Outlook::Open,
+        };
+        prop_assert_eq!(compared.outlook, outlook, "{} gained, {} lost", gained, lost);
+        let [low, high] = compared.difference.interval.unwrap();
+        prop_assert!(-1.0 <= low && low <= compared.difference.mean && compared.difference.mean <= high && high <= 1.0);
     }
 }
 

@@ -19,8 +19,8 @@ pub fn comparison_page(provenance: &Provenance, comparison: &Comparison) -> Stri
     let introduction = html! {
         p.lead { "Compared with " (first) ", over pairs of runs with the same scene, start and noise." }
         p {
-            "Each difference is that of the policy minus that of " (first) ", as the mean over all pairs, with its 95 % interval by \
-             Student's t. A figure is better or worse if the interval does not contain zero."
+            "Each difference is that of the policy minus that of " (first) ", as the mean over all pairs, with its 95 % interval: \
+             by Student's t, and for the share of completed runs the exact one over the pairs that differ. A figure is better or worse if the interval does not contain zero."
         }
     };
     let sections = html! {

@@ -32,6 +32,11 @@ pub fn figures() -> Vec<Figure> {
 }
 
 impl Figure {
+    /// True if its mean is a share of runs, and its value is 0 or 1.
+    pub(super) fn is_share(&self) -> bool {
+        self.metric.is_none()
+    }
+
     /// Its value in the unit of its name. `None` if the run does not have it, or if the run does not count for it.
     pub(super) fn of(&self, run: &RunResult) -> Option<f64> {
         let value = self.metric.map_or_else(|| Some(completed(run.outcome.name())), |metric| run.figure(metric));
