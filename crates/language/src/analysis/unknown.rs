@@ -66,7 +66,7 @@ impl Domain {
             Unknown::Body(BodyScalar::Shortfall | BodyScalar::NoseWidth | BodyScalar::TailWidth) => {
                 range(0.0, DISTANCE_LIMIT)
             }
-            Unknown::Body(BodyScalar::Flexibility) => range(f64::MIN_POSITIVE, 1e9),
+            Unknown::Body(BodyScalar::Flexibility | BodyScalar::Sway) => range(f64::MIN_POSITIVE, 1e9),
             Unknown::Contact(_) => Self::Values((0..CONTACTS.len()).map(|index| index as f64).collect()),
             // Half a revolution, and the overshoot of a filter.
             Unknown::Deflection(_) => range(-TAU, TAU),

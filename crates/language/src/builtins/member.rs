@@ -166,7 +166,9 @@ members! {
         "flexibility" Type::NUMBER => Body(BodyScalar::Flexibility),
             "the ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape, from the rig";
         "decay" Type::TIME => Body(BodyScalar::Decay),
-            "the time in which a free vibration of the first bound whisker decreases to 37 %, from the rig";
+            "the time in which the first bound whisker, released in the air, comes nearer to rest by a factor e, from the rig";
+        "sway" Type::NUMBER => Body(BodyScalar::Sway),
+            "the ratio of the base angles of the first bound whisker and of the reference whisker by inertia, under the same acceleration, from the rig";
     }
 
     MAP {

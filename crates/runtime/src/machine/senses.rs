@@ -159,8 +159,11 @@ pub enum BodyScalar {
     NoseReach,
     /// Ratio of the base angles of the first bound whisker and of the reference whisker, bent to the same shape.
     Flexibility,
-    /// Time (s) in which the amplitude of the first bound whisker, vibrating freely, decreases to 1/e.
+    /// Time (s) in which the first bound whisker, moving freely, comes nearer to rest by a factor e.
     Decay,
+    /// Ratio of the base angles of the first bound whisker and of the reference whisker, by their inertia under the same
+    /// acceleration.
+    Sway,
 }
 
 /// Scalars and booleans of a whisker.

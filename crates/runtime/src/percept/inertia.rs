@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Vector2, perpendicular, rotate, turn_between, unit};
 use crate::math;
-use crate::rig::Whisker;
+use crate::rig::{Rig, Whisker};
 
 use super::platform_motion::Motion;
 
@@ -48,6 +48,12 @@ impl Inertia {
             + self.second * acceleration.yaw;
         -pushed
     }
+}
+
+/// Ratio of the base angles of `whisker` and of the reference whisker by inertia, on a platform with the same acceleration.
+pub(super) fn sway(whisker: &Whisker) -> f64 {
+    let of = |whisker: &Whisker| Inertia::new(whisker).first;
+    Rig::default().whiskers.first().map_or(1.0, |reference| of(whisker) / of(reference))
 }
 
 /// Acceleration of a platform.
@@ -101,7 +107,6 @@ mod tests {
 
     use super::*;
     use crate::geometry::Point2;
-    use crate::rig::Rig;
 
     proptest! {
         /// The oracle differentiates the paths of single points of the shaft.

@@ -5,6 +5,7 @@ mod base_angle;
 mod command_delay;
 mod contact;
 mod contact_estimator;
+mod creep;
 mod disturbance;
 mod filtered_base_angle;
 mod inertia;

@@ -15,7 +15,7 @@ use crate::signal::{Command, Sample};
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
 use super::disturbance::Disturbance;
-use super::inertia::MeasuredAcceleration;
+use super::inertia::{MeasuredAcceleration, sway};
 use super::loop_watch::LoopWatch;
 use super::low_pass::{CutoffError, LowPass};
 use super::moment_and_shear::MomentAndShear;
@@ -46,8 +46,10 @@ pub struct Perception {
     platform: Platform,
     /// Flexibility of the first whisker that the policy binds.
     flexibility: f64,
-    /// Time (s) in which its free vibration decreases to 1/e.
+    /// Time (s) in which it comes nearer to rest by a factor e.
     decay: f64,
+    /// Ratio of its base angle by inertia and that of the reference whisker.
+    sway: f64,
     /// The whiskers in the order of the policy.
     whiskers: Vec<PerceivedWhisker>,
     /// For each whisker, its index in the rig and in samples. `None` if the rig lacks it.
@@ -185,7 +187,8 @@ impl Perception {
             at_effect: Pose::default(),
             platform: rig.platform.clone(),
             flexibility: first.map_or(1.0, Whisker::flexibility),
-            decay: first.map_or(0.0, |first| math::min(Vibration::of(first).decay, LONGEST_DECAY)),
+            decay: first.map_or(0.0, |first| math::min(Vibration::of(&first.perceived()).relaxation(), LONGEST_DECAY)),
+            sway: first.map_or(1.0, |first| sway(&first.perceived())),
             whiskers: perceived,
             in_sample: whiskers.to_vec(),
             contours: Vec::new(),

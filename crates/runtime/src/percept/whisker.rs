@@ -12,6 +12,7 @@ use crate::signal::Reading;
 use super::base_angle::{MODEL_DEVIATION, NOISE_THRESHOLD};
 use super::contact::Contact;
 use super::contact_estimator::ContactEstimator;
+use super::creep::Creep;
 use super::filtered_base_angle::{FilteredBaseAngle, GREATEST_ANGLE};
 use super::inertia::{Acceleration, Inertia};
 use super::low_pass::LowPass;
@@ -36,6 +37,8 @@ pub(super) struct PerceivedWhisker {
     /// Reading in the air (rad), as the calibration has it.
     offset: f64,
     base_angle: FilteredBaseAngle,
+    /// The bend of a shaft whose material creeps. `None` for one that follows at once.
+    creep: Option<Creep>,
     estimator: Box<dyn ContactEstimator>,
     /// The estimated contact, if there is one in this tick.
     contact: Option<Contact>,
@@ -94,6 +97,7 @@ impl PerceivedWhisker {
             length: whisker.shaft.length,
             offset: offset(whisker),
             base_angle: FilteredBaseAngle::new(filter),
+            creep: Creep::new(whisker, sensing),
             estimator,
             contact: None,
             curve,
@@ -167,6 +171,7 @@ impl PerceivedWhisker {
         }
         if is_valid && body.pose.is_finite() {
             self.lost = 0;
+            let base_angle = self.static_base_angle(base_angle);
             self.estimator.take(&Reading { base_angle, ..*reading }, self.base(body));
             return self.estimator.misfit();
         }
@@ -176,6 +181,13 @@ impl PerceivedWhisker {
             self.estimator.interrupt();
         }
         None
+    }
+
+    /// The base angle (rad) at rest for the bend at a reading (rad). A whisker without a force has no contact, even while it creeps back.
+    fn static_base_angle(&mut self, reading: f64) -> f64 {
+        let Some(creep) = &mut self.creep else { return reading };
+        let base_angle = creep.take(reading);
+        if reading.abs() < self.contact_threshold { reading } else { base_angle }
     }
 
     /// Largest magnitude (rad) of the readings of this tick, without the filter. `None` if one of them is lost or there is
@@ -230,7 +242,8 @@ impl PerceivedWhisker {
         self.base_at_effect = self.base(at_effect);
         (self.base_world, self.yaw) = (base.position, base.heading);
         let has_reading = is_measured && self.base_angle.has_reading();
-        self.contact = if has_reading { self.estimator.contact(self.base_angle(), base) } else { None };
+        let bend = self.creep.filter(|_| self.is_touching()).map_or(self.base_angle(), |creep| creep.base_angle());
+        self.contact = if has_reading { self.estimator.contact(bend, base) } else { None };
         self.contour.begin();
         if pose_deviation != PoseDeviation::default()
             && let Some(contact) = &mut self.contact

@@ -27,6 +27,16 @@ impl Vibration {
         let damping = damping_of_hinge + vibrating.shaft.damping * of_shaft;
         Self { frequency: (stiffness / mass).sqrt(), decay: 2.0 * mass / damping }
     }
+
+    /// Time (s) in which a free whisker comes nearer to rest by a factor e. It is [`decay`](Self::decay) of a whisker that swings. A
+    /// whisker with more than critical damping creeps back in the longer time `(rate + (rate² - frequency²)^½) / frequency²`, where
+    /// `rate` is the inverse of `decay`.
+    #[must_use]
+    pub fn relaxation(&self) -> f64 {
+        let rate = self.decay.recip();
+        let creeping = math::square(rate) - math::square(self.frequency);
+        if creeping > 0.0 { (rate + creeping.sqrt()) / math::square(self.frequency) } else { self.decay }
+    }
 }
 
 impl Whisker {
@@ -213,6 +223,24 @@ mod tests {
         assert_eq!(slow.vibrating().shaft.damping.to_bits(), slow.shaft.damping.to_bits());
         slow.first_mode = None;
         assert_eq!(slow.vibrating(), slow);
+    }
+
+    #[test]
+    fn a_released_whisker_comes_to_rest_with_the_slower_root_of_its_equation() {
+        for frequency in [20.0, 50.0, 90.0] {
+            for decay in [1e-3, 3e-3, 0.01, 0.03, 0.3, 3.0] {
+                let vibration = Vibration { frequency, decay };
+                let rate = vibration.relaxation().recip();
+                // The amplitude obeys s² + 2 s / decay + frequency² = 0. Complex roots have the real part -1 / decay.
+                let left = rate * rate - 2.0 * rate / decay + frequency * frequency;
+                let is_creeping = decay * frequency < 1.0;
+                assert!(
+                    if is_creeping { left.abs() < 1e-6 * frequency * frequency } else { rate * decay == 1.0 },
+                    "{vibration:?}"
+                );
+                assert!(!is_creeping || rate <= decay.recip(), "{vibration:?}");
+            }
+        }
     }
 
     #[test]

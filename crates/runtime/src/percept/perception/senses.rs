@@ -25,6 +25,7 @@ impl Senses for Perception {
             BodyScalar::NoseReach => self.platform.length - self.platform.centre_of_mass,
             BodyScalar::Flexibility => self.flexibility,
             BodyScalar::Decay => self.decay,
+            BodyScalar::Sway => self.sway,
         }
     }
 
