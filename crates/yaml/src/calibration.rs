@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 use vibrissa_runtime::calibration::{
-    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, MeasuredWhisker, UnsoundCalibration,
+    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, FreeMotion, MeasuredWhisker, UnsoundCalibration,
 };
 
 /// The supported format version.
@@ -17,6 +17,7 @@ struct Document {
     about: String,
     hinge_stiffness: Option<f64>,
     measured: Option<MeasuredWhisker>,
+    free_motion: Option<FreeMotion>,
     one_channel: Option<ContactCurve>,
     recursive: Option<AngleSurface>,
     polynomial: Option<DeflectionPolynomial>,
@@ -61,11 +62,11 @@ pub fn read_calibration(text: &str) -> Result<Calibration, CalibrationError> {
             _ => return Err(CalibrationError::Syntax(error.to_string())),
         },
     };
-    let Document { format, about, hinge_stiffness, measured, one_channel, recursive, polynomial } = read;
+    let Document { format, about, hinge_stiffness, measured, free_motion, one_channel, recursive, polynomial } = read;
     if format != CALIBRATION_FORMAT {
         return Err(CalibrationError::Format { found: format });
     }
-    let calibration = Calibration { about, hinge_stiffness, measured, one_channel, recursive, polynomial };
+    let calibration = Calibration { about, hinge_stiffness, measured, free_motion, one_channel, recursive, polynomial };
     calibration.check()?;
     Ok(calibration)
 }

@@ -45,6 +45,9 @@ pub enum ArrayCalibrationError {
 /// Radius of the pin, as a share of the longest whisker.
 const PIN: f64 = 0.1;
 
+/// Largest penetration (m) of a whisker that slips off the pin. It springs back against it once, and no touch is measured meanwhile.
+const PENETRATION_LIMIT: f64 = 3e-3;
+
 /// Number of parameters of a whisker that do not drift. They are the first ones.
 const CONSTANT: usize = Parameter::Offset as usize;
 /// The 95 % quantile of chi-square with so many degrees of freedom.
@@ -103,6 +106,7 @@ impl ArrayCalibration {
         for whisker in &mut scene.rig.whiskers {
             whisker.calibration = None;
         }
+        scene.physics.penetration_limit = scene.physics.penetration_limit.max(PENETRATION_LIMIT);
         let mut simulated = build_world(&scene, world, seed)?;
         let whiskers = touch_pin(simulated.as_mut(), &scene.rig, pin, limits)?;
         Ok(Self { pin, whiskers, truths: true_parameters(&scene) })

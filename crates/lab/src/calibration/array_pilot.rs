@@ -1,6 +1,7 @@
 //! Motion of an array between rests, and the mean readings of a rest.
 
 use vibrissa_runtime::calibration::TouchNoise;
+use vibrissa_runtime::math;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
@@ -21,8 +22,9 @@ pub(super) struct ArrayPilot<'w> {
     ticks: u64,
     /// Standard deviations of the measured position (m, of each coordinate) and heading (rad).
     pub(super) noise: TouchNoise,
-    /// Mean base angles (rad) of the rest at the start.
+    /// Mean base angles (rad) of the rest at the start, and the standard deviations of their readings.
     first_base_angles: [f64; MAX_WHISKERS],
+    first_noises: [f64; MAX_WHISKERS],
 }
 
 /// The mean of the samples of a rest.
@@ -36,6 +38,8 @@ pub(super) struct Rest {
     noise: TouchNoise,
     /// Mean base angles (rad) and their standard deviations.
     base_angles: [(f64, f64); MAX_WHISKERS],
+    /// Number of samples.
+    count: f64,
 }
 
 /// Speed between touches (m/s), and the highest rate of the approach (1/s).
@@ -53,7 +57,13 @@ const PRESS_GAIN: f64 = 2.0;
 /// platform at a distance.
 const PATIENCE: f64 = 5.0;
 /// Time until whisker and platform are at rest (s), of a rest in the air, and of the rest that shows the noise of poses.
-const SETTLING: f64 = 0.4;
+pub(super) const SETTLING: f64 = 0.4;
+/// Time (s) of a window of readings. A whisker has settled if the means of two successive windows differ by no more than this (rad) or
+/// than this many standard deviations of their noise. And the longest time (s) until then.
+const WINDOW: f64 = 0.2;
+const SETTLED: f64 = 5e-8;
+const CERTAIN: f64 = 3.0;
+const PATIENCE_AT_REST: f64 = 10.0;
 const IN_AIR: f64 = 0.3;
 const FIRST_REST: f64 = 20.0;
 /// Time of the motions of a touch (s), and the limits of the time of its rest.
@@ -73,10 +83,12 @@ impl<'w> ArrayPilot<'w> {
             ticks: 0,
             noise: TouchNoise::default(),
             first_base_angles: [0.0; MAX_WHISKERS],
+            first_noises: [f64::INFINITY; MAX_WHISKERS],
         };
         let rest = pilot.rest(FIRST_REST, |_| Command::STOP)?;
         (pilot.heading, pilot.noise) = (rest.body.heading, rest.noise);
         pilot.first_base_angles = rest.base_angles.map(|(mean, _)| mean);
+        pilot.first_noises = rest.base_angles.map(|(_, of_mean)| of_mean * rest.count.sqrt());
         Ok(pilot)
     }
 
@@ -119,6 +131,7 @@ impl<'w> ArrayPilot<'w> {
         }
         let gain = PRESS_GAIN.min(self.gain);
         self.approach(position, gain, ARRIVED)?;
+        self.settle(|pilot| pilot.towards(position, gain))?;
         self.rest(time, |pilot| pilot.towards(position, gain))
     }
 
@@ -149,8 +162,25 @@ impl<'w> ArrayPilot<'w> {
         })
     }
 
+    /// Executes commands for a time (s), each from the time since the start of it (s). `look` receives each sample.
+    pub(super) fn watch(
+        &mut self,
+        time: f64,
+        command: impl Fn(&Self, f64) -> Vector2,
+        mut look: impl FnMut(&Sample),
+    ) -> Result<(), Fault> {
+        let start = self.time();
+        while self.time() - start < time {
+            let velocity_world = command(self, self.time() - start);
+            let yaw_rate = self.gain * (self.heading - self.body.heading);
+            self.tick(&Command { velocity_world, yaw_rate }, &mut look)?;
+        }
+        Ok(())
+    }
+
     /// Rests in the air.
     pub(super) fn rest_in_air(&mut self) -> Result<Rest, Fault> {
+        self.settle(|_| Command::STOP)?;
         self.rest(IN_AIR, |_| Command::STOP)
     }
 
@@ -167,17 +197,48 @@ impl<'w> ArrayPilot<'w> {
         Ok(())
     }
 
+    /// Number of ticks in a time (s).
+    fn ticks(&self, time: f64) -> u32 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let ticks = (time * self.rate).ceil() as u32;
+        ticks
+    }
+
+    /// Executes commands until all readings have settled: no whisker swings or creeps, and the platform has arrived.
+    fn settle(&mut self, command: impl Fn(&Self) -> Command) -> Result<(), Fault> {
+        let until = self.time() + PATIENCE_AT_REST;
+        let mut before: Option<[Moments; MAX_WHISKERS]> = None;
+        while self.time() < until {
+            let mut now: [Moments; MAX_WHISKERS] = Default::default();
+            for _ in 0..self.ticks(WINDOW) {
+                self.tick(&command(self), |sample| {
+                    for (mean, reading) in now.iter_mut().zip(&sample.whiskers) {
+                        mean.add(reading.base_angle);
+                    }
+                })?;
+            }
+            let is_settled = |before: &[Moments; MAX_WHISKERS]| {
+                let noises = &self.first_noises;
+                before.iter().zip(&now).zip(noises).all(|((before, now), noise)| {
+                    let deviation = noise * (2.0 / now.count.max(1.0)).sqrt();
+                    (now.mean - before.mean).abs() <= math::max(SETTLED, CERTAIN * deviation)
+                        && now.variance() <= math::max(math::square(SETTLED), 2.0 * noise * noise)
+                })
+            };
+            if before.as_ref().is_some_and(is_settled) {
+                break;
+            }
+            before = Some(now);
+        }
+        Ok(())
+    }
+
     /// Comes to rest under commands and averages the samples of a time (s). Values that are not numbers are left out.
     fn rest(&mut self, time: f64, command: impl Fn(&Self) -> Command) -> Result<Rest, Fault> {
-        let ticks = |time: f64, rate: f64| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-            let ticks = (time * rate).ceil() as u32;
-            ticks
-        };
-        for _ in 0..ticks(SETTLING, self.rate) {
+        for _ in 0..self.ticks(SETTLING) {
             self.tick(&command(self), |_| ())?;
         }
-        let (start, count) = (self.time(), ticks(time, self.rate));
+        let (start, count) = (self.time(), self.ticks(time));
         let (mut poses, mut angles): (Vec<Pose>, [Moments; MAX_WHISKERS]) = (Vec::new(), Default::default());
         for _ in 0..count {
             self.tick(&command(self), |sample| {
@@ -203,6 +264,7 @@ impl<'w> ArrayPilot<'w> {
                 position: (0.5 * (x.variance() + y.variance())).sqrt(),
                 heading: heading.variance().sqrt(),
             },
+            count: angles[0].count,
             base_angles: angles.map(|angle| (angle.mean, (angle.variance() / angle.count.max(1.0)).sqrt())),
         })
     }

@@ -6,6 +6,7 @@ mod array_pilot;
 mod columns;
 mod contact_sets;
 mod count_set;
+mod creep;
 mod fit;
 mod hinge_fit;
 mod next_touch;
@@ -24,6 +25,7 @@ pub use contact_sets::{SetsError, read_count_sets, read_sets, write_sets};
 pub use count_set::CountSet;
 #[cfg(feature = "robot")]
 pub use count_set::fit_field;
+pub use creep::{Pressed, damping};
 pub use fit::{Fitted, HeldOut, MIN_POSITIONS, fit};
 pub use next_touch::{MissedTouch, NextTouch};
 pub use pluck::{Pluck, PluckError};

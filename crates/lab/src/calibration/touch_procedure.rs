@@ -1,13 +1,17 @@
 //! The procedure that calibrates an array by touches of a known pin.
 
 use vibrissa_runtime::calibration::{
-    PlannedTouch, Stroke, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal,
+    FreeMotion, PlannedTouch, Stroke, TouchFit, TouchNoise, TouchPlan, TouchReading, TouchRefusal,
 };
 use vibrissa_runtime::math;
 use vibrissa_runtime::mechanics::Obstacle;
 use vibrissa_runtime::rig::{Rig, Whisker};
 
-use super::array_pilot::{ArrayPilot, Rest};
+use std::f64::consts::{PI, TAU};
+
+use super::array_pilot::{ArrayPilot, Rest, SETTLING};
+use super::creep::{Pressed, damping};
+use super::pluck::Pluck;
 use super::whisker_touches::WhiskerTouches;
 use vibrissa_world::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
 use vibrissa_world::world::{Fault, World};
@@ -48,9 +52,17 @@ const MOVED: f64 = 4e-6;
 /// the tip.
 const STROKES: usize = 3;
 const STROKE_ROOM: f64 = 15e-3;
-/// Speed (m/s) of such a slide, and its time (s) in each direction.
-const STROKE_SPEED: f64 = 4e-3;
-const STROKE_TIME: f64 = 0.5;
+/// Speeds (m/s) of these slides, and the way (m) over which their readings are averaged. Two speeds tell friction from a delay.
+const STROKE_SPEEDS: [f64; STROKES] = [1e-3, 4e-3, 1e-3];
+const STROKE_WAY: f64 = 2e-3;
+/// Share of the deflection by which the pin swings back and forth while it presses the whisker, and the time (s) of a swing.
+const SWING: f64 = 0.5;
+const SWING_TIME: f64 = 1.0;
+/// Speed (m/s) at which the pin leaves the tip, and the time (s) in the air after that.
+const RELEASE_SPEED: f64 = 20e-3;
+const RELEASED: f64 = 3.0;
+/// Largest share of the motion of a swinging whisker that is not in its first mode.
+const MOST_MISFIT: f64 = 0.05;
 /// Number of touches without a response after which the whisker is given up.
 const HOPELESS: usize = 4;
 /// Time of the last motions of a touch (s), for which some of the limit is left.
@@ -137,8 +149,9 @@ struct Toucher<'p, 'w> {
     /// Position of the pin (m, frame of the base that the rig assumes), as it was last commanded.
     pin_base: Option<Point2>,
     touched: Vec<(PlannedTouch, Rest)>,
-    /// Slides of the pin along the whisker, outwards and back, each at the end of a touch with this index.
-    strokes: Vec<(usize, [Rest; 2])>,
+    /// Slides of the pin along the whisker, outwards and back, each at the end of a touch with this index, and the velocity (m/s, world
+    /// frame) of the platform outwards.
+    strokes: Vec<(usize, [Rest; 2], Vector2)>,
     /// Rests in the air, one before each touch and one at the end.
     in_air: Vec<Rest>,
     missed: Vec<PlannedTouch>,
@@ -177,6 +190,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
                 fit = next;
             }
         }
+        let free_motion = self.free_motion()?;
         self.leave()?;
         let mut touches = WhiskerTouches::fitted(self.rig, self.index, self.readings(), self.noise());
         touches.fit = touches.fit.map(|fit| fit.with_strokes(&self.strokes(), &touches.noise));
@@ -185,6 +199,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
         }
         Ok(WhiskerTouches {
             missed: self.missed.len(),
+            free_motion,
             first_in_air: self.pilot.first_base_angle(self.index),
             time: Some(self.pilot.time() - start),
             ..touches
@@ -204,7 +219,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
             if !self.is_moved(&in_air)
                 && let Some((slipped, _)) = self.touched.pop()
             {
-                self.strokes.retain(|(touch, _)| *touch < self.touched.len());
+                self.strokes.retain(|(touch, ..)| *touch < self.touched.len());
                 self.in_air.pop();
                 self.missed.push(slipped);
             }
@@ -231,13 +246,62 @@ impl<'p, 'w> Toucher<'p, 'w> {
         Ok(())
     }
 
-    /// Slides the pin along the bent whisker towards its tip and back.
+    /// Slides the pin along the bent whisker towards its tip and back. Both readings are over the same way, so that an error of the
+    /// fitted parameters, which changes the slope of the readings along the whisker, is not taken for friction.
     fn stroke(&mut self) -> Result<(), Fault> {
         let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
-        let outwards = self.pilot.slide(-STROKE_SPEED * along, STROKE_TIME)?;
-        let back = self.pilot.slide(STROKE_SPEED * along, STROKE_TIME)?;
-        self.strokes.push((self.touched.len() - 1, [outwards, back]));
+        let speed = STROKE_SPEEDS[self.strokes.len() % STROKE_SPEEDS.len()];
+        let (velocity_world, time) = (-speed * along, STROKE_WAY / speed);
+        let outwards = self.pilot.slide(velocity_world, time)?;
+        self.pilot.watch(SETTLING, |_, _| velocity_world, |_| ())?;
+        let back = self.pilot.slide(-velocity_world, time)?;
+        self.strokes.push((self.touched.len() - 1, [outwards, back], velocity_world));
         Ok(())
+    }
+
+    /// Measures the motion of the whisker in the air. The pin of the last touch presses the whisker to and fro, which shows its
+    /// damping. Then it slides along the shaft beyond the tip, which releases the whisker.
+    fn free_motion(&mut self) -> Result<Option<FreeMotion>, Fault> {
+        let Some(&(planned, _)) = self.touched.last() else { return Ok(None) };
+        let before = self.beside(planned.pin_base.x, planned.side);
+        self.approach(before, planned.side)?;
+        self.pin_base = Some(planned.pin_base);
+        self.pilot.press(self.body(planned.pin_base), SWING_TIME)?;
+        let back = self.body(before) - self.body(planned.pin_base);
+        let Some(away) = back.try_normalize(0.0) else { return Ok(None) };
+        let swing = SWING * (back.norm() - CLEARANCE);
+        let (index, from, heading, mut time) = (self.index, self.pilot.position(), self.pilot.heading(), f64::NAN);
+        let mut pressed: Vec<Pressed> = Vec::new();
+        let speed =
+            |_: &ArrayPilot<'_>, time: f64| (PI * swing / SWING_TIME) * math::sin(TAU * time / SWING_TIME) * away;
+        self.pilot.watch(2.0 * SWING_TIME, speed, |sample| {
+            let Some(reading) = sample.whiskers.get(index) else { return };
+            let period = sample.time - std::mem::replace(&mut time, sample.time);
+            let off = sample.body.position - from;
+            let (displacement, aside) = (off.dot(&away), away.perp(&off));
+            let turn = turn_between(heading, sample.body.heading);
+            if [period, displacement, turn, reading.base_angle].iter().all(|value| value.is_finite()) {
+                pressed.push(Pressed { period, displacement, aside, turn, reading: reading.base_angle });
+            }
+        })?;
+        let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
+        let out = self.beyond_tip() - planned.pin_base.x;
+        let mut readings = Vec::new();
+        self.pilot.watch(
+            out / RELEASE_SPEED + RELEASED,
+            |_, _| -RELEASE_SPEED * along,
+            |sample| {
+                readings.extend(sample.whiskers.get(index).map(|reading| (sample.time, reading.base_angle)));
+            },
+        )?;
+        self.pin_base = Some(Point2::new(planned.pin_base.x + out + RELEASED * RELEASE_SPEED, planned.pin_base.y));
+        // What creeps back looks like a slow mode that explains only a part of the motion.
+        let mode = Pluck::of(&readings).ok().filter(|mode| mode.misfit < MOST_MISFIT);
+        let mode = mode.map(|Pluck { first_mode, decay, .. }| FreeMotion::Mode { first_mode, decay });
+        // The damping of the hinge delays what the damping of the shaft advances.
+        let hinge = &self.whisker().hinge;
+        let of_shaft = damping(&pressed).map(|damping| damping + hinge.damping / hinge.stiffness);
+        Ok(mode.or_else(|| of_shaft.map(|damping| FreeMotion::Creep { damping })))
     }
 
     /// True if the whisker in the air reads another base angle than before the last touch.
@@ -303,10 +367,10 @@ impl<'p, 'w> Toucher<'p, 'w> {
 
     /// The strokes, with the reading in the air at their times.
     fn strokes(&self) -> Vec<Stroke> {
-        let stroke = |(number, [outwards, back]): &(usize, [Rest; 2])| {
+        let stroke = |(number, [outwards, back], velocity_world): &(usize, [Rest; 2], Vector2)| {
             let (planned, _) = self.touched.get(*number)?;
             let [outwards, back] = [outwards, back].map(|rest| self.reading(*number, planned.side, rest));
-            Some(Stroke { outwards: outwards?, back: back? })
+            Some(Stroke { outwards: outwards?, back: back?, velocity_world: *velocity_world })
         };
         self.strokes.iter().filter_map(stroke).collect()
     }

@@ -1,6 +1,8 @@
 //! The touches of a whisker and their result.
 
-use vibrissa_runtime::calibration::{Calibration, MeasuredWhisker, TouchFit, TouchNoise, TouchReading, TouchRefusal};
+use vibrissa_runtime::calibration::{
+    Calibration, FreeMotion, MeasuredWhisker, TouchFit, TouchNoise, TouchReading, TouchRefusal,
+};
 use vibrissa_runtime::rig::Rig;
 
 /// The touches of a whisker and their result.
@@ -20,6 +22,8 @@ pub struct WhiskerTouches {
     pub tip_deviation: f64,
     /// The reading in the air at the start, before any whisker touches (rad).
     pub first_in_air: f64,
+    /// The motion in the air, if it was measured.
+    pub free_motion: Option<FreeMotion>,
     /// Duration (s). `None` if it is not known.
     pub time: Option<f64>,
 }
@@ -46,6 +50,7 @@ impl WhiskerTouches {
             missed: 0,
             tip_deviation: fit.as_ref().map_or(f64::INFINITY, TouchFit::tip_deviation),
             first_in_air: readings.first().map_or(0.0, |first| first.in_air),
+            free_motion: None,
             time: None,
             readings,
             noise,
@@ -64,6 +69,6 @@ impl WhiskerTouches {
         let fit = fit.as_ref().map_err(refused)?;
         let about = format!("{whisker}, {} touches of a known object", readings.len());
         let measured = MeasuredWhisker { offset: self.first_in_air, ..fit.measured() };
-        Ok(Calibration { measured: Some(measured), ..Calibration::new(about) })
+        Ok(Calibration { measured: Some(measured), free_motion: self.free_motion, ..Calibration::new(about) })
     }
 }

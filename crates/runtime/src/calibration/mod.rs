@@ -4,6 +4,7 @@ mod angle_surface;
 mod contact_curve;
 mod contact_set;
 mod deflection_polynomial;
+mod free_motion;
 mod least_squares;
 mod measured_whisker;
 mod parameters;
@@ -22,6 +23,7 @@ pub use angle_surface::AngleSurface;
 pub use contact_curve::ContactCurve;
 pub use contact_set::ContactSet;
 pub use deflection_polynomial::DeflectionPolynomial;
+pub use free_motion::FreeMotion;
 pub use measured_whisker::MeasuredWhisker;
 pub use parameters::{Parameter, ParameterCovariance, Parameters, tolerances};
 pub use refusal::TouchRefusal;
@@ -38,6 +40,9 @@ pub struct Calibration {
     pub hinge_stiffness: Option<f64>,
     /// The whisker as touches of a known object have measured it. Then `hinge_stiffness` is `None`.
     pub measured: Option<MeasuredWhisker>,
+    /// The motion in the air, if it was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_motion: Option<FreeMotion>,
     /// The contact position by base angle, for the contact estimator `one_channel`.
     pub one_channel: Option<ContactCurve>,
     /// The base angle by contact position, for the contact estimator `recursive`.
@@ -79,6 +84,7 @@ impl Calibration {
             ("hinge_stiffness", self.hinge_stiffness.is_none_or(|stiffness| (1e-6..=1e6).contains(&stiffness))),
             ("hinge_stiffness", self.hinge_stiffness.is_none() || self.measured.is_none()),
             ("measured", self.measured.as_ref().is_none_or(MeasuredWhisker::is_sound)),
+            ("free_motion", self.free_motion.as_ref().is_none_or(FreeMotion::is_sound)),
             ("one_channel", self.one_channel.as_ref().is_none_or(ContactCurve::is_sound)),
             ("recursive", self.recursive.as_ref().is_none_or(AngleSurface::is_sound)),
             ("polynomial", self.polynomial.as_ref().is_none_or(DeflectionPolynomial::is_sound)),

@@ -2,7 +2,9 @@
 
 use std::cmp::Ordering;
 
-use crate::geometry::Pose;
+use nalgebra::Matrix2;
+
+use crate::geometry::{Pose, Vector2};
 use crate::math;
 use crate::mechanics::{Obstacle, Touch, TouchMechanics};
 use crate::rig::Whisker;
@@ -72,6 +74,8 @@ pub struct Stroke {
     pub outwards: TouchReading,
     /// Mean reading while it slides back.
     pub back: TouchReading,
+    /// Velocity of the platform (m/s, world frame) while it slides outwards. It slides back at the opposite one.
+    pub velocity_world: Vector2,
 }
 
 /// The assumptions of a fit: the parameters before any touch.
@@ -115,6 +119,9 @@ const UNREACHED: f64 = 30.0;
 /// Number of Newton steps for a coefficient of friction, the difference for its derivative, and its largest magnitude.
 const FRICTION_STEPS: usize = 3;
 const FRICTION_STEP: f64 = 0.02;
+const LAG_STEP: f64 = 2e-3;
+/// Standard deviation (s) of the lag of readings behind poses, or of poses behind readings, that is expected.
+const READING_LAG: f64 = 0.03;
 const MOST_FRICTION: f64 = 1.0;
 
 /// A touch with the derivatives of its reading.
@@ -268,23 +275,37 @@ impl TouchFit {
 
     /// Measures the friction of the whisker when it slides. It turns the force outwards or back, so that the two readings
     /// of a stroke differ. Strokes without an equilibrium are left out.
+    ///
+    /// Readings that are late or early relative to the poses differ too, in proportion to the speed. So strokes with different speeds
+    /// show both.
     #[must_use]
     pub fn with_strokes(mut self, strokes: &[Stroke], noise: &TouchNoise) -> Self {
-        let prior = math::square(parameters::tolerances()[Parameter::Friction.index()]).recip();
-        let (mut weight, mut sum) = (prior, 0.0);
-        for (friction, variance) in strokes.iter().filter_map(|stroke| self.friction_of(stroke, noise)) {
-            weight += variance.recip();
-            sum += friction / variance;
+        let deviations = Vector2::new(parameters::tolerances()[Parameter::Friction.index()], READING_LAG);
+        let mut at = Vector2::zeros();
+        for _ in 0..FRICTION_STEPS {
+            // The friction and the lag with the least squares, linearised at the last ones.
+            let mut information = Matrix2::from_diagonal(&deviations.map(|deviation| math::square(deviation).recip()));
+            let mut moment = Vector2::zeros();
+            for (rest, slopes, variance) in strokes.iter().filter_map(|stroke| self.linearised(stroke, at, noise)) {
+                information += slopes * slopes.transpose() / variance;
+                moment += slopes * ((rest + slopes.dot(&at)) / variance);
+            }
+            let Some(covariance) = information.try_inverse() else { return self };
+            at = covariance * moment;
+            at.x = at.x.clamp(-MOST_FRICTION, MOST_FRICTION);
+            self.sliding_friction = [at.x, covariance.m11.sqrt()];
         }
-        self.sliding_friction = [sum / weight, weight.recip().sqrt()];
         self
     }
 
-    /// The coefficient of friction by one stroke, and its variance.
-    fn friction_of(&self, stroke: &Stroke, noise: &TouchNoise) -> Option<(f64, f64)> {
+    /// The difference between the two readings of a stroke that a friction and a lag (s) of readings behind poses do not explain, its
+    /// slopes by both, and its variance.
+    fn linearised(&self, stroke: &Stroke, at: Vector2, noise: &TouchNoise) -> Option<(f64, Vector2, f64)> {
         // The base angle of a contact with this friction, and its variance due to the pose of the platform.
-        let predicted = |reading: &TouchReading, friction: f64| {
-            let obstacle = reading.obstacle.seen_from(reading.body);
+        let predicted = |reading: &TouchReading, friction: f64, moved: Vector2| {
+            let mut body = reading.body;
+            body.position += moved;
+            let obstacle = reading.obstacle.seen_from(body);
             let mut at = self.parameters;
             at[Parameter::Friction.index()] = friction;
             let (mechanics, seen) = parameters::mechanics(&self.whisker, &at, &obstacle);
@@ -292,22 +313,20 @@ impl TouchFit {
             let predicted = Predicted::of(&self.whisker, &at, &obstacle, &touch, reading.side, noise)?;
             Some((predicted.reading, predicted.pose_variance))
         };
-        let difference = |friction: f64| {
-            let ((outwards, one), (back, other)) =
-                (predicted(&stroke.outwards, friction)?, predicted(&stroke.back, -friction)?);
+        let difference = |friction: f64, lag: f64| {
+            let behind = -lag * stroke.velocity_world;
+            let (outwards, one) = predicted(&stroke.outwards, friction, behind)?;
+            let (back, other) = predicted(&stroke.back, -friction, -behind)?;
             Some((outwards - back, one + other))
         };
         let contact = |reading: &TouchReading| reading.base_angle - reading.in_air;
         let measured = contact(&stroke.outwards) - contact(&stroke.back);
         let variance = math::square(stroke.outwards.deviation) + math::square(stroke.back.deviation);
-        let (mut friction, mut found) = (0.0, None);
-        for _ in 0..FRICTION_STEPS {
-            let ((here, pose_variance), (beside, _)) = (difference(friction)?, difference(friction + FRICTION_STEP)?);
-            let slope = (beside - here) / FRICTION_STEP;
-            friction = (friction + (measured - here) / slope).clamp(-MOST_FRICTION, MOST_FRICTION);
-            found = Some((friction, (variance + pose_variance) / math::square(slope)));
-        }
-        found.filter(|(friction, variance)| friction.is_finite() && *variance > 0.0)
+        let (here, pose_variance) = difference(at.x, at.y)?;
+        let by_friction = (difference(at.x + FRICTION_STEP, at.y)?.0 - here) / FRICTION_STEP;
+        let by_lag = (difference(at.x, at.y + LAG_STEP)?.0 - here) / LAG_STEP;
+        let linear = (measured - here, Vector2::new(by_friction, by_lag), variance + pose_variance);
+        (linear.0.is_finite() && linear.1.norm().is_finite() && linear.2 > 0.0).then_some(linear)
     }
 
     /// Standard deviation of tips (m, along the normal of the surface) that the errors of the parameters cause: the root

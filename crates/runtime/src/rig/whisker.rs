@@ -81,6 +81,9 @@ impl Whisker {
             if let Some(measured) = &calibration.measured {
                 measured.apply(&mut whisker);
             }
+            if let Some(motion) = &calibration.free_motion {
+                motion.apply(&mut whisker);
+            }
         }
         whisker
     }

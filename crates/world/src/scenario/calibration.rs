@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use vibrissa_runtime::calibration::{AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, MeasuredWhisker};
+use vibrissa_runtime::calibration::{
+    AngleSurface, Calibration, ContactCurve, DeflectionPolynomial, FreeMotion, MeasuredWhisker,
+};
 use vibrissa_yaml::CALIBRATION_FORMAT;
 
 /// Returns the text of a calibration file.
@@ -54,6 +56,15 @@ fn values(calibration: &Calibration) -> String {
         for row in covariance {
             let _ = writeln!(text, "    - {row:?}");
         }
+    }
+    match calibration.free_motion {
+        Some(FreeMotion::Mode { first_mode, decay }) => {
+            let _ = writeln!(text, "free_motion:\n  mode:\n    first_mode: {first_mode:?}\n    decay: {decay:?}");
+        }
+        Some(FreeMotion::Creep { damping }) => {
+            let _ = writeln!(text, "free_motion:\n  creep:\n    damping: {damping:?}");
+        }
+        None => {}
     }
     if let Some(ContactCurve { range, x, y, covariance }) = &calibration.one_channel {
         let _ =
