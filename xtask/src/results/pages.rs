@@ -158,7 +158,7 @@ pub(super) const PAGES: [Page; 15] = [
             "bench --policy policies/quick.fsm --policy policies/tilted.fsm --policy policies/reverse.fsm --policy policies/baseline.fsm --json",
             "run scenarios/more/array-octagon.yaml scenarios/more/array-box.yaml scenarios/more/array-prism.yaml --json",
             "run scenarios/more/peer-disk.yaml --json",
-            "run scenarios/more/peer-box.yaml scenarios/more/peer-octagon.yaml --set speed=20mm/s --set careful=15mm/s --set clearance=20mm --set radius=12mm --json",
+            "run scenarios/more/peer-box.yaml scenarios/more/peer-octagon.yaml --json",
             "compare policies/baseline.fsm policies/thesis.fsm policies/vibrissa.fsm --seeds 4 --jitter 20mm --jitter-heading 10deg --json",
         ],
         code: &["crates/lab/src/study/compare"],
