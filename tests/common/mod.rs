@@ -93,6 +93,7 @@ impl Senses for Script {
             BodyScalar::NoseReach => 0.1,
             BodyScalar::Flexibility => 1.25,
             BodyScalar::Decay => 0.25,
+            BodyScalar::Sway => 0.75,
         }
     }
 

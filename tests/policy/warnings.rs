@@ -174,6 +174,7 @@ impl Senses for Told {
             BodyScalar::NoseReach => "nose",
             BodyScalar::Flexibility => "body.flexibility",
             BodyScalar::Decay => "body.decay",
+            BodyScalar::Sway => "body.sway",
         })
     }
 

@@ -76,7 +76,7 @@ fn misfit(pressed: &[Pressed], damping: f64) -> Option<f64> {
             let yielded = if column == DEGREE + 2 { pressed[row].aside / furthest } else { pressed[row].turn };
             return yielded;
         }
-        if column <= DEGREE { along.powi(i32::try_from(column).unwrap_or(0)) } else { way(pressed, row) }
+        if column <= DEGREE { math::powi(along, i32::try_from(column).unwrap_or(0)) } else { way(pressed, row) }
     });
     let solved = columns.clone().svd(true, true).solve(&base_angles, 1e-12).ok()?;
     let variation = base_angles.add_scalar(-base_angles.mean()).norm_squared();

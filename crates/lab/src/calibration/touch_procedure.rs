@@ -52,9 +52,9 @@ const MOVED: f64 = 4e-6;
 /// the tip.
 const STROKES: usize = 3;
 const STROKE_ROOM: f64 = 15e-3;
-/// Speeds (m/s) of these slides, and the way (m) over which their readings are averaged. Two speeds tell friction from a delay.
+/// Speeds (m/s) of these slides, and the path (m) over which their readings are averaged. Two speeds tell friction from a delay.
 const STROKE_SPEEDS: [f64; STROKES] = [1e-3, 4e-3, 1e-3];
-const STROKE_WAY: f64 = 2e-3;
+const STROKE_PATH: f64 = 2e-3;
 /// Share of the deflection by which the pin swings back and forth while it presses the whisker, and the time (s) of a swing.
 const SWING: f64 = 0.5;
 const SWING_TIME: f64 = 1.0;
@@ -246,12 +246,12 @@ impl<'p, 'w> Toucher<'p, 'w> {
         Ok(())
     }
 
-    /// Slides the pin along the bent whisker towards its tip and back. Both readings are over the same way, so that an error of the
+    /// Slides the pin along the bent whisker towards its tip and back. Both readings are over the same path, so that an error of the
     /// fitted parameters, which changes the slope of the readings along the whisker, is not taken for friction.
     fn stroke(&mut self) -> Result<(), Fault> {
         let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
         let speed = STROKE_SPEEDS[self.strokes.len() % STROKE_SPEEDS.len()];
-        let (velocity_world, time) = (-speed * along, STROKE_WAY / speed);
+        let (velocity_world, time) = (-speed * along, STROKE_PATH / speed);
         let outwards = self.pilot.slide(velocity_world, time)?;
         self.pilot.watch(SETTLING, |_, _| velocity_world, |_| ())?;
         let back = self.pilot.slide(-velocity_world, time)?;

@@ -28,7 +28,7 @@ pub(super) struct PlatformMotion {
     behind: [EachServo; 3],
     speed: [EachServo; 3],
     /// Motion since the start of the run at the newest steps, by coordinate.
-    motions: [[EachServo; 3]; MEMORY],
+    motions: Vec<[EachServo; 3]>,
     /// Index of the newest step in the memory of motions, and the number of steps since the last gap.
     newest: usize,
     known: usize,
@@ -114,7 +114,7 @@ impl PlatformMotion {
             left,
             behind,
             speed: none,
-            motions: [none; MEMORY],
+            motions: vec![none; MEMORY],
             newest: 0,
             known: 0,
             costs: [[[0.0; SERVOS.len()]; 2]; DELAYS],

@@ -235,7 +235,11 @@ mod tests {
                 let left = rate * rate - 2.0 * rate / decay + frequency * frequency;
                 let is_creeping = decay * frequency < 1.0;
                 assert!(
-                    if is_creeping { left.abs() < 1e-6 * frequency * frequency } else { rate * decay == 1.0 },
+                    if is_creeping {
+                        left.abs() < 1e-6 * frequency * frequency
+                    } else {
+                        (rate * decay - 1.0).abs() < 1e-12
+                    },
                     "{vibration:?}"
                 );
                 assert!(!is_creeping || rate <= decay.recip(), "{vibration:?}");
