@@ -20,6 +20,8 @@ pub(super) struct ArrayPilot<'w> {
     heading: f64,
     body: Pose,
     ticks: u64,
+    /// Time (s) of motions that are no touches.
+    left_out: f64,
     /// Standard deviations of the measured position (m, of each coordinate) and heading (rad).
     pub(super) noise: TouchNoise,
     /// Mean base angles (rad) of the rest at the start, and the standard deviations of their readings.
@@ -81,10 +83,12 @@ impl<'w> ArrayPilot<'w> {
             heading: 0.0,
             body: Pose::UNKNOWN,
             ticks: 0,
+            left_out: 0.0,
             noise: TouchNoise::default(),
             first_base_angles: [0.0; MAX_WHISKERS],
             first_noises: [f64::INFINITY; MAX_WHISKERS],
         };
+        pilot.settle(0.0, |_| Command::STOP)?;
         let rest = pilot.rest(FIRST_REST, |_| Command::STOP)?;
         (pilot.heading, pilot.noise) = (rest.body.heading, rest.noise);
         pilot.first_base_angles = rest.base_angles.map(|(mean, _)| mean);
@@ -100,6 +104,16 @@ impl<'w> ArrayPilot<'w> {
     /// Time since the start (s).
     pub(super) fn time(&self) -> f64 {
         self.ticks as f64 / self.rate
+    }
+
+    /// Time (s) that touches have taken since the start.
+    pub(super) fn touching_time(&self) -> f64 {
+        self.time() - self.left_out
+    }
+
+    /// Does not count the time since `start` (s) as that of touches.
+    pub(super) fn leave_out(&mut self, start: f64) {
+        self.left_out += self.time() - start;
     }
 
     /// The heading (rad) that the platform keeps.
@@ -123,15 +137,16 @@ impl<'w> ArrayPilot<'w> {
     }
 
     /// Moves to a position (m, world frame) without overshoot, and rests there for a time (s). The platform keeps the
-    /// position against the force of a whisker.
-    pub(super) fn press(&mut self, position: Point2, time: f64) -> Result<Rest, Fault> {
+    /// position against the force of a whisker, whose readings change by so much per displacement (rad/m).
+    pub(super) fn press(&mut self, position: Point2, time: f64, by_displacement: f64) -> Result<Rest, Fault> {
         let way = position - self.body.position;
         if let Some(ahead) = way.try_normalize(LAST_WAY) {
             self.approach(position - LAST_WAY * ahead, self.gain, PASSED)?;
         }
         let gain = PRESS_GAIN.min(self.gain);
         self.approach(position, gain, ARRIVED)?;
-        self.settle(|pilot| pilot.towards(position, gain))?;
+        // The platform follows its measured pose, so the whisker feels the errors of poses.
+        self.settle(self.noise.position * by_displacement, |pilot| pilot.towards(position, gain))?;
         self.rest(time, |pilot| pilot.towards(position, gain))
     }
 
@@ -153,8 +168,7 @@ impl<'w> ArrayPilot<'w> {
         Command { velocity_world, yaw_rate: gain * (self.heading - self.body.heading) }
     }
 
-    /// Moves at a constant velocity (m/s, world frame) for a time (s), after the time in which the servos follow. The mean
-    /// reading is that at the mean pose.
+    /// Moves on at a constant velocity (m/s, world frame) for a time (s). The mean reading is that at the mean pose.
     pub(super) fn slide(&mut self, velocity: Vector2, time: f64) -> Result<Rest, Fault> {
         self.rest(time, |pilot| Command {
             velocity_world: velocity,
@@ -180,7 +194,7 @@ impl<'w> ArrayPilot<'w> {
 
     /// Rests in the air.
     pub(super) fn rest_in_air(&mut self) -> Result<Rest, Fault> {
-        self.settle(|_| Command::STOP)?;
+        self.settle(0.0, |_| Command::STOP)?;
         self.rest(IN_AIR, |_| Command::STOP)
     }
 
@@ -204,8 +218,12 @@ impl<'w> ArrayPilot<'w> {
         ticks
     }
 
-    /// Executes commands until all readings have settled: no whisker swings or creeps, and the platform has arrived.
-    fn settle(&mut self, command: impl Fn(&Self) -> Command) -> Result<(), Fault> {
+    /// Executes commands until all readings have settled: no whisker swings or creeps, and the platform has arrived. Readings that
+    /// change by `moving` (rad, standard deviation) have settled.
+    fn settle(&mut self, moving: f64, command: impl Fn(&Self) -> Command) -> Result<(), Fault> {
+        for _ in 0..self.ticks(SETTLING) {
+            self.tick(&command(self), |_| ())?;
+        }
         let until = self.time() + PATIENCE_AT_REST;
         let mut before: Option<[Moments; MAX_WHISKERS]> = None;
         while self.time() < until {
@@ -220,9 +238,9 @@ impl<'w> ArrayPilot<'w> {
             let is_settled = |before: &[Moments; MAX_WHISKERS]| {
                 let noises = &self.first_noises;
                 before.iter().zip(&now).zip(noises).all(|((before, now), noise)| {
-                    let deviation = noise * (2.0 / now.count.max(1.0)).sqrt();
+                    let deviation = math::hypot(noise * (2.0 / now.count.max(1.0)).sqrt(), moving);
                     (now.mean - before.mean).abs() <= math::max(SETTLED, CERTAIN * deviation)
-                        && now.variance() <= math::max(math::square(SETTLED), 2.0 * noise * noise)
+                        && now.variance() <= math::square(SETTLED) + 2.0 * noise * noise + math::square(moving)
                 })
             };
             if before.as_ref().is_some_and(is_settled) {
@@ -233,11 +251,8 @@ impl<'w> ArrayPilot<'w> {
         Ok(())
     }
 
-    /// Comes to rest under commands and averages the samples of a time (s). Values that are not numbers are left out.
+    /// Executes commands and averages the samples of a time (s). Values that are not numbers are left out.
     fn rest(&mut self, time: f64, command: impl Fn(&Self) -> Command) -> Result<Rest, Fault> {
-        for _ in 0..self.ticks(SETTLING) {
-            self.tick(&command(self), |_| ())?;
-        }
         let (start, count) = (self.time(), self.ticks(time));
         let (mut poses, mut angles): (Vec<Pose>, [Moments; MAX_WHISKERS]) = (Vec::new(), Default::default());
         for _ in 0..count {

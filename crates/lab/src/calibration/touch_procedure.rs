@@ -30,7 +30,7 @@ pub struct Pin {
 pub struct TouchLimits {
     /// Maximum number of touches of a whisker.
     pub touches: usize,
-    /// Time for all whiskers (s).
+    /// Time for the touches of all whiskers (s).
     pub time: f64,
     /// Standard deviation of tips (m) at which a whisker is calibrated.
     pub deviation: f64,
@@ -55,11 +55,13 @@ const STROKE_ROOM: f64 = 15e-3;
 /// Speeds (m/s) of these slides, and the path (m) over which their readings are averaged. Two speeds tell friction from a delay.
 const STROKE_SPEEDS: [f64; STROKES] = [1e-3, 4e-3, 1e-3];
 const STROKE_PATH: f64 = 2e-3;
+/// Path (m) before that, on which friction holds the whisker at first.
+const SLIPPING: f64 = 1e-3;
 /// Share of the deflection by which the pin swings back and forth while it presses the whisker, and the time (s) of a swing.
 const SWING: f64 = 0.5;
 const SWING_TIME: f64 = 1.0;
 /// Speed (m/s) at which the pin leaves the tip, and the time (s) in the air after that.
-const RELEASE_SPEED: f64 = 20e-3;
+const RELEASE_SPEED: f64 = 40e-3;
 const RELEASED: f64 = 3.0;
 /// Largest share of the motion of a swinging whisker that is not in its first mode.
 const MOST_MISFIT: f64 = 0.05;
@@ -89,7 +91,7 @@ pub fn touch_pin(
     let mut results = Vec::with_capacity(rig.whiskers.len());
     for index in 0..rig.whiskers.len() {
         let left = rig.whiskers.len() - index;
-        let until = pilot.time() + (limits.time - pilot.time()) / left as f64;
+        let until = pilot.touching_time() + (limits.time - pilot.touching_time()) / left as f64;
         around.bring_pin(&mut pilot, pin, tip_body(&rig.whiskers[index]))?;
         results.push(Toucher::new(&mut pilot, rig, index, pin).touch(limits, until)?);
     }
@@ -178,8 +180,8 @@ impl<'p, 'w> Toucher<'p, 'w> {
             return Ok(WhiskerTouches { fit: Err(refusal), time: Some(0.0), ..untouched });
         }
         let mut fit = TouchFit::untouched(whisker);
-        let rest = ArrayPilot::rest_time((until - start) / limits.touches as f64);
-        while self.touched.len() + self.missed.len() < limits.touches && self.pilot.time() + LAST < until {
+        let rest = ArrayPilot::rest_time((until - self.pilot.touching_time()) / limits.touches as f64);
+        while self.touched.len() + self.missed.len() < limits.touches && self.pilot.touching_time() + LAST < until {
             let is_hopeless = self.touched.is_empty() && self.missed.len() >= HOPELESS;
             if is_hopeless || plan.tip_deviation(&fit) < limits.deviation {
                 break;
@@ -190,7 +192,9 @@ impl<'p, 'w> Toucher<'p, 'w> {
                 fit = next;
             }
         }
+        let before = self.pilot.time();
         let free_motion = self.free_motion()?;
+        self.pilot.leave_out(before);
         self.leave()?;
         let mut touches = WhiskerTouches::fitted(self.rig, self.index, self.readings(), self.noise());
         touches.fit = touches.fit.map(|fit| fit.with_strokes(&self.strokes(), &touches.noise));
@@ -225,7 +229,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
             }
         }
         self.pin_base = Some(planned.pin_base);
-        let touch = self.pilot.press(self.body(planned.pin_base), rest)?;
+        let touch = self.pilot.press(self.body(planned.pin_base), rest, self.by_displacement(&planned, before))?;
         let change = |index: usize| touch.base_angle(index).0 - in_air.base_angle(index).0;
         if (change(self.index) / planned.base_angle).abs() < SLIPPED {
             let other = (0..self.rig.whiskers.len())
@@ -252,9 +256,13 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
         let speed = STROKE_SPEEDS[self.strokes.len() % STROKE_SPEEDS.len()];
         let (velocity_world, time) = (-speed * along, STROKE_PATH / speed);
+        let (began, slipping) = (self.pilot.time(), SETTLING.max(SLIPPING / speed));
+        self.pilot.watch(slipping, |_, _| velocity_world, |_| ())?;
         let outwards = self.pilot.slide(velocity_world, time)?;
-        self.pilot.watch(SETTLING, |_, _| velocity_world, |_| ())?;
+        self.pilot.watch(slipping, |_, _| velocity_world, |_| ())?;
+        self.pilot.watch(slipping, |_, _| -velocity_world, |_| ())?;
         let back = self.pilot.slide(-velocity_world, time)?;
+        self.pilot.leave_out(began);
         self.strokes.push((self.touched.len() - 1, [outwards, back], velocity_world));
         Ok(())
     }
@@ -266,7 +274,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let before = self.beside(planned.pin_base.x, planned.side);
         self.approach(before, planned.side)?;
         self.pin_base = Some(planned.pin_base);
-        self.pilot.press(self.body(planned.pin_base), SWING_TIME)?;
+        self.pilot.press(self.body(planned.pin_base), SWING_TIME, self.by_displacement(&planned, before))?;
         let back = self.body(before) - self.body(planned.pin_base);
         let Some(away) = back.try_normalize(0.0) else { return Ok(None) };
         let swing = SWING * (back.norm() - CLEARANCE);
@@ -302,6 +310,12 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let hinge = &self.whisker().hinge;
         let of_shaft = damping(&pressed).map(|damping| damping + hinge.damping / hinge.stiffness);
         Ok(mode.or_else(|| of_shaft.map(|damping| FreeMotion::Creep { damping })))
+    }
+
+    /// The expected change of the reading per displacement of the pin (rad/m) in a planned touch, to which the pin comes from a position
+    /// beside the whisker.
+    fn by_displacement(&self, planned: &PlannedTouch, beside: Point2) -> f64 {
+        planned.base_angle.abs() / ((planned.pin_base - beside).norm() - CLEARANCE).max(CLEARANCE)
     }
 
     /// True if the whisker in the air reads another base angle than before the last touch.
