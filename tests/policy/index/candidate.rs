@@ -92,7 +92,8 @@ fn behind_a_point_come_the_members_of_what_stands_before_it() {
             "nose_width",
             "tail_width",
             "flexibility",
-            "decay"
+            "decay",
+            "sway"
         ]
     );
     assert_eq!(labels(&writing("let x = w.tip.\u{a7}")), ["x", "y"]);
