@@ -107,6 +107,12 @@ pub fn start_beside_pin(rig: &Rig, pin: Pin, heading: f64) -> Pose {
     Pose { position: pin.centre - rotate(pin_body, heading), heading }
 }
 
+/// The expected change of the reading per displacement of the pin (rad/m) in a planned touch, to which the pin comes from a position
+/// beside the whisker.
+fn by_displacement(planned: &PlannedTouch, beside: Point2) -> f64 {
+    planned.base_angle.abs() / ((planned.pin_base - beside).norm() - CLEARANCE).max(CLEARANCE)
+}
+
 /// Position of the tip of a straight whisker (m, body frame).
 fn tip_body(whisker: &Whisker) -> Vector2 {
     whisker.base_pose().point_to_world(Point2::new(whisker.shaft.length, 0.0)).coords
@@ -229,7 +235,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
             }
         }
         self.pin_base = Some(planned.pin_base);
-        let touch = self.pilot.press(self.body(planned.pin_base), rest, self.by_displacement(&planned, before))?;
+        let touch = self.pilot.press(self.body(planned.pin_base), rest, by_displacement(&planned, before))?;
         let change = |index: usize| touch.base_angle(index).0 - in_air.base_angle(index).0;
         if (change(self.index) / planned.base_angle).abs() < SLIPPED {
             let other = (0..self.rig.whiskers.len())
@@ -274,7 +280,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let before = self.beside(planned.pin_base.x, planned.side);
         self.approach(before, planned.side)?;
         self.pin_base = Some(planned.pin_base);
-        self.pilot.press(self.body(planned.pin_base), SWING_TIME, self.by_displacement(&planned, before))?;
+        self.pilot.press(self.body(planned.pin_base), SWING_TIME, by_displacement(&planned, before))?;
         let back = self.body(before) - self.body(planned.pin_base);
         let Some(away) = back.try_normalize(0.0) else { return Ok(None) };
         let swing = SWING * (back.norm() - CLEARANCE);
@@ -310,12 +316,6 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let hinge = &self.whisker().hinge;
         let of_shaft = damping(&pressed).map(|damping| damping + hinge.damping / hinge.stiffness);
         Ok(mode.or_else(|| of_shaft.map(|damping| FreeMotion::Creep { damping })))
-    }
-
-    /// The expected change of the reading per displacement of the pin (rad/m) in a planned touch, to which the pin comes from a position
-    /// beside the whisker.
-    fn by_displacement(&self, planned: &PlannedTouch, beside: Point2) -> f64 {
-        planned.base_angle.abs() / ((planned.pin_base - beside).norm() - CLEARANCE).max(CLEARANCE)
     }
 
     /// True if the whisker in the air reads another base angle than before the last touch.
