@@ -20,8 +20,6 @@ pub(super) struct ArrayPilot<'w> {
     heading: f64,
     body: Pose,
     ticks: u64,
-    /// Time (s) of motions that are no touches.
-    left_out: f64,
     /// Standard deviations of the measured position (m, of each coordinate) and heading (rad).
     pub(super) noise: TouchNoise,
     /// Mean base angles (rad) of the rest at the start, and the standard deviations of their readings.
@@ -83,7 +81,6 @@ impl<'w> ArrayPilot<'w> {
             heading: 0.0,
             body: Pose::UNKNOWN,
             ticks: 0,
-            left_out: 0.0,
             noise: TouchNoise::default(),
             first_base_angles: [0.0; MAX_WHISKERS],
             first_noises: [f64::INFINITY; MAX_WHISKERS],
@@ -104,16 +101,6 @@ impl<'w> ArrayPilot<'w> {
     /// Time since the start (s).
     pub(super) fn time(&self) -> f64 {
         self.ticks as f64 / self.rate
-    }
-
-    /// Time (s) that touches have taken since the start.
-    pub(super) fn touching_time(&self) -> f64 {
-        self.time() - self.left_out
-    }
-
-    /// Does not count the time since `start` (s) as that of touches.
-    pub(super) fn leave_out(&mut self, start: f64) {
-        self.left_out += self.time() - start;
     }
 
     /// The heading (rad) that the platform keeps.

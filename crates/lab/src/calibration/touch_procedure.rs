@@ -30,7 +30,7 @@ pub struct Pin {
 pub struct TouchLimits {
     /// Maximum number of touches of a whisker.
     pub touches: usize,
-    /// Time for the touches of all whiskers (s).
+    /// Time for all whiskers (s).
     pub time: f64,
     /// Standard deviation of tips (m) at which a whisker is calibrated.
     pub deviation: f64,
@@ -55,8 +55,6 @@ const STROKE_ROOM: f64 = 15e-3;
 /// Speeds (m/s) of these slides, and the path (m) over which their readings are averaged. Two speeds tell friction from a delay.
 const STROKE_SPEEDS: [f64; STROKES] = [1e-3, 4e-3, 1e-3];
 const STROKE_PATH: f64 = 2e-3;
-/// Path (m) before that, on which friction holds the whisker at first.
-const SLIPPING: f64 = 1e-3;
 /// Share of the deflection by which the pin swings back and forth while it presses the whisker, and the time (s) of a swing.
 const SWING: f64 = 0.5;
 const SWING_TIME: f64 = 1.0;
@@ -67,8 +65,8 @@ const RELEASED: f64 = 3.0;
 const MOST_MISFIT: f64 = 0.05;
 /// Number of touches without a response after which the whisker is given up.
 const HOPELESS: usize = 4;
-/// Time of the last motions of a touch (s), for which some of the limit is left.
-const LAST: f64 = 8.0;
+/// Time (s) of the last motions of a touch and of the motion in the air, for which some of the limit is left.
+const LAST: f64 = 16.0;
 /// Standard deviation of the mechanics as a position (m), and of a reading that is not due to noise (rad).
 const MODEL_POSITION: f64 = 1e-5;
 const MODEL_ANGLE: f64 = 2e-8;
@@ -91,7 +89,7 @@ pub fn touch_pin(
     let mut results = Vec::with_capacity(rig.whiskers.len());
     for index in 0..rig.whiskers.len() {
         let left = rig.whiskers.len() - index;
-        let until = pilot.touching_time() + (limits.time - pilot.touching_time()) / left as f64;
+        let until = pilot.time() + (limits.time - pilot.time()) / left as f64;
         around.bring_pin(&mut pilot, pin, tip_body(&rig.whiskers[index]))?;
         results.push(Toucher::new(&mut pilot, rig, index, pin).touch(limits, until)?);
     }
@@ -186,8 +184,8 @@ impl<'p, 'w> Toucher<'p, 'w> {
             return Ok(WhiskerTouches { fit: Err(refusal), time: Some(0.0), ..untouched });
         }
         let mut fit = TouchFit::untouched(whisker);
-        let rest = ArrayPilot::rest_time((until - self.pilot.touching_time()) / limits.touches as f64);
-        while self.touched.len() + self.missed.len() < limits.touches && self.pilot.touching_time() + LAST < until {
+        let rest = ArrayPilot::rest_time((until - start) / limits.touches as f64);
+        while self.touched.len() + self.missed.len() < limits.touches && self.pilot.time() + LAST < until {
             let is_hopeless = self.touched.is_empty() && self.missed.len() >= HOPELESS;
             if is_hopeless || plan.tip_deviation(&fit) < limits.deviation {
                 break;
@@ -198,9 +196,7 @@ impl<'p, 'w> Toucher<'p, 'w> {
                 fit = next;
             }
         }
-        let before = self.pilot.time();
         let free_motion = self.free_motion()?;
-        self.pilot.leave_out(before);
         self.leave()?;
         let mut touches = WhiskerTouches::fitted(self.rig, self.index, self.readings(), self.noise());
         touches.fit = touches.fit.map(|fit| fit.with_strokes(&self.strokes(), &touches.noise));
@@ -262,13 +258,11 @@ impl<'p, 'w> Toucher<'p, 'w> {
         let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
         let speed = STROKE_SPEEDS[self.strokes.len() % STROKE_SPEEDS.len()];
         let (velocity_world, time) = (-speed * along, STROKE_PATH / speed);
-        let (began, slipping) = (self.pilot.time(), SETTLING.max(SLIPPING / speed));
-        self.pilot.watch(slipping, |_, _| velocity_world, |_| ())?;
+        self.pilot.watch(SETTLING, |_, _| velocity_world, |_| ())?;
         let outwards = self.pilot.slide(velocity_world, time)?;
-        self.pilot.watch(slipping, |_, _| velocity_world, |_| ())?;
-        self.pilot.watch(slipping, |_, _| -velocity_world, |_| ())?;
+        self.pilot.watch(SETTLING, |_, _| velocity_world, |_| ())?;
+        self.pilot.watch(SETTLING, |_, _| -velocity_world, |_| ())?;
         let back = self.pilot.slide(-velocity_world, time)?;
-        self.pilot.leave_out(began);
         self.strokes.push((self.touched.len() - 1, [outwards, back], velocity_world));
         Ok(())
     }
