@@ -100,10 +100,13 @@ def distance_to_box(points):
 
 
 # ANCHOR: loop
-def trace(policy, friction, time_limit_s):
-    """Drives the model by a policy. Gives the recorded tips (N x 2) and their standard deviations (m), and how the run ended."""
+def trace(policy, friction, time_limit_s, recording=None):
+    """Drives the model by a policy. Gives the recorded tips (N x 2) and their standard deviations (m), and how the run ended.
+
+    Writes a recording to the path `recording`, if there is one.
+    """
     rig = vibrissa.Rig.load(vibrissa.Text(RIG, "rig.yaml"))
-    control = vibrissa.compile(policy).start(rig)
+    control = vibrissa.compile(policy).start(rig, record=recording is not None)
     engine = model(1 / rig.sample_rate_hz, friction)
     state = mujoco.MjData(engine)
     state.qpos[:3] = [*START, START_HEADING]
@@ -125,8 +128,12 @@ def trace(policy, friction, time_limit_s):
         tips.extend(seen["tip_m"][seen["recorded"]])
         deviations.extend(seen["tip_spread_m"][seen["recorded"]])
         if seen["loop_closed"].any():
-            return np.array(tips), np.array(deviations), f"closed the loop after {state.time:.1f} s"
-    end = f"{control.status}: {control.reason}" if control.reason else f"{control.status} after {state.time:.1f} s"
+            end = f"closed the loop after {state.time:.1f} s"
+            break
+    else:
+        end = f"{control.status}: {control.reason}" if control.reason else f"{control.status} after {state.time:.1f} s"
+    if recording is not None:
+        control.write_recording(recording)
     return np.array(tips).reshape(-1, 2), np.array(deviations), end
 # ANCHOR_END: loop
 
@@ -138,8 +145,9 @@ def main():
     parser.add_argument("--friction", type=float, default=0.0, help="coefficient of friction of the box")
     parser.add_argument("--time-limit", type=float, default=240.0, metavar="S", help="simulated seconds")
     parser.add_argument("--out", metavar="CSV", help="where to write the recorded tips")
+    parser.add_argument("--record", metavar="MCAP", help="where to write the recording, for `vibrissa replay`")
     options = parser.parse_args()
-    tips, deviations, end = trace(options.policy, options.friction, options.time_limit)
+    tips, deviations, end = trace(options.policy, options.friction, options.time_limit, options.record)
     print(f"{options.policy}: {end}, {len(tips)} tips")
     if len(tips):
         errors = distance_to_box(tips)

@@ -17,7 +17,7 @@ use super::provenance::provenance;
 #[cfg(feature = "recording")]
 use super::{diff::explained, inspect::breakpoints};
 #[cfg(feature = "live")]
-use crate::live::{Live, LiveReplay};
+use crate::live::{Live, replay_setup};
 use vibrissa_lab::load::{self, LoadError};
 #[cfg(feature = "recording")]
 use vibrissa_lab::recording::{RunRecording, compare_policies};
@@ -151,9 +151,8 @@ fn show(
     }
     let scene = recorded_scene(&recorded, arguments.scenario.as_deref(), files)?;
     let trial = scene.as_ref().and_then(|scene| recorded_trial(&recorded, scene));
-    let replay = LiveReplay::new(&recorded);
-    let mut watcher = begin(live, replay.setup(scene, trial), || false)?;
-    let replayed = replay.run(&mut watcher).map_err(|cause| Failure::run_recording(path)(cause.into()))?;
+    let mut watcher = begin(live, replay_setup(&recorded, scene, trial), || false)?;
+    let replayed = recorded.drive(&mut watcher).map_err(|cause| Failure::run_recording(path)(cause.into()))?;
     if let Some(replayed) = replayed {
         watcher.finish_unjudged(&replayed);
     }

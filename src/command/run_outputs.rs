@@ -174,7 +174,7 @@ fn recorder(prepared: &Prepared, file: Output) -> Result<(Output, Recorder), Fai
 #[cfg(feature = "recording")]
 fn write_recording(recording: Option<(Output, Recorder)>, finished: &TrialResult) -> Result<(), Failure> {
     let Some((file, recorder)) = recording else { return Ok(()) };
-    Ok(file.write(recorder.finish(finished)?)?)
+    Ok(file.write(recorder.finish(finished.ending().to_string(), &finished.run)?)?)
 }
 
 #[cfg(feature = "render")]

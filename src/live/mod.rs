@@ -25,6 +25,6 @@ mod watcher;
 pub use error::LiveError;
 pub use folder::serve_folder;
 pub use live::{Live, LiveOptions};
-pub use replay::LiveReplay;
+pub use replay::replay_setup;
 pub use vibrissa_lab::stream::RunSetup;
 pub use watcher::LiveWatcher;

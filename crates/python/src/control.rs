@@ -1,11 +1,17 @@
 //! The control loop of a machine.
 
+#[cfg(feature = "recording")]
+use std::path::PathBuf;
+
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use vibrissa_runtime::geometry::{Pose, Vector2};
-use vibrissa_runtime::machine::{LoggedMessage, Senses, Status, WhiskerScalar, WhiskerVector};
+#[cfg(feature = "recording")]
+use vibrissa::recording::record_samples;
+use vibrissa_runtime::machine::{Artifact, LoggedMessage, Senses, Status, WhiskerScalar, WhiskerVector};
+use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal;
 
 use crate::arrays::{Numbers, list, table};
@@ -27,6 +33,16 @@ pub(crate) struct Control {
     status: Status,
     /// The latest time (s) of a sample. Minus infinity before the first one.
     latest: f64,
+    /// What a recording needs, if it was asked for.
+    kept: Option<Kept>,
+}
+
+/// What a recording of a control loop needs.
+pub(crate) struct Kept {
+    pub(crate) artifact: Artifact,
+    pub(crate) rig: Rig,
+    /// The samples before each tick.
+    pub(crate) samples: Vec<Vec<signal::Sample>>,
 }
 
 /// A command to the platform, valid until the next tick.
@@ -35,8 +51,8 @@ pub(crate) struct Control {
 pub(crate) struct Command(signal::Command);
 
 impl Control {
-    pub(crate) fn new(control: vibrissa_runtime::control::Control, width: usize) -> Self {
-        Self { inner: control, width, status: Status::Running, latest: f64::NEG_INFINITY }
+    pub(crate) fn new(control: vibrissa_runtime::control::Control, width: usize, kept: Option<Kept>) -> Self {
+        Self { inner: control, width, status: Status::Running, latest: f64::NEG_INFINITY, kept }
     }
 }
 
@@ -82,6 +98,9 @@ impl Control {
         self.latest = latest_time(self.latest, &samples)?;
         let (command, tick) = self.inner.tick(&samples);
         self.status = tick.status;
+        if let Some(kept) = &mut self.kept {
+            kept.samples.push(samples);
+        }
         Ok(Command(command))
     }
 
@@ -158,6 +177,16 @@ impl Control {
     /// The map by touch, with the recorded contours: a dictionary. `None` if there is none.
     fn map<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         self.inner.map().map(|map| of_map(py, map, &self.inner.machine().program().whiskers)).transpose()
+    }
+
+    /// Writes the recording of the ticks so far, as `vibrissa replay` reads it.
+    #[cfg(feature = "recording")]
+    fn write_recording(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let Some(Kept { artifact, rig, samples }) = &self.kept else {
+            return Err(error("the samples have not been kept; begin with `machine.start(rig, record=True)`"));
+        };
+        let content = py.detach(|| record_samples(artifact, rig, samples.clone())).map_err(error)?;
+        std::fs::write(&path, content).map_err(|cause| error(format_args!("{}: {cause}", path.display())))
     }
 
     #[staticmethod]

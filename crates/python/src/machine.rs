@@ -10,7 +10,7 @@ use vibrissa::request::{self, PolicyInput, PreparedPolicy};
 use vibrissa_runtime::machine::Artifact;
 use vibrissa_runtime::map::MapSettings;
 
-use crate::control::Control;
+use crate::control::{Control, Kept};
 use crate::error::error;
 use crate::input::{GivenPolicy, settings};
 use crate::pickle::{Reduced, hash_of, restored_from};
@@ -91,9 +91,9 @@ impl Machine {
     }
 
     /// The control loop of a rig under this machine, at the start of a run. Without a rig, that of the reference rig. With `map`, it
-    /// has a map also if the policy does not use one.
-    #[pyo3(signature = (rig = None, *, map = false))]
-    fn start(&self, py: Python<'_>, rig: Option<Bound<'_, Rig>>, map: bool) -> PyResult<Control> {
+    /// has a map also if the policy does not use one. With `record`, it keeps its samples for a recording.
+    #[pyo3(signature = (rig = None, *, map = false, record = false))]
+    fn start(&self, py: Python<'_>, rig: Option<Bound<'_, Rig>>, map: bool, record: bool) -> PyResult<Control> {
         let rig = rig.map_or_else(vibrissa_runtime::rig::Rig::default, |rig| rig.get().0.clone());
         let program = Arc::new(self.artifact.program.clone());
         // Tables of perception may take a while.
@@ -106,7 +106,8 @@ impl Machine {
             }
         });
         let control = control.map_err(error)?;
-        Ok(Control::new(control, rig.whiskers.len()))
+        let kept = record.then(|| Kept { artifact: self.artifact.clone(), rig: rig.clone(), samples: Vec::new() });
+        Ok(Control::new(control, rig.whiskers.len(), kept))
     }
 
     /// Name of the machine.

@@ -23,10 +23,12 @@ def test_distances_are_those_of_a_turned_square(example):
     assert distances == pytest.approx([0, 0.01, 0.02, 0.05, half], abs=1e-12)
 
 
-def test_a_compiled_policy_traces_a_side_in_a_model_of_its_user(example):
-    tips, deviations, end = example.trace("thesis", friction=0.0, time_limit_s=20.0)
+def test_a_compiled_policy_traces_a_side_in_a_model_of_its_user(example, tmp_path):
+    recording = tmp_path / "run.mcap"
+    tips, deviations, end = example.trace("thesis", friction=0.0, time_limit_s=20.0, recording=recording)
     assert end == "running after 20.0 s"
     assert np.ptp(tips, axis=0).max() > 0.2, "more than half a side"
     errors = example.distance_to_box(tips)
     assert errors.mean() < 0.7e-3, "the mean error that the baseline reports for a box"
     assert np.mean(errors < 1.96 * deviations) > 0.9
+    assert recording.read_bytes().startswith(b"\x89MCAP0\r\n")

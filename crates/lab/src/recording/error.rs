@@ -23,6 +23,9 @@ pub enum RecordError {
     /// The text of the policy has errors, although it was compiled before.
     #[error("the guards of the policy cannot be explained")]
     Explain,
+    /// The run ended before the first tick.
+    #[error("there is nothing to record, because the run had no tick")]
+    NoTick,
     /// The system starts no thread, or the thread ended early.
     #[error("the thread that writes the recording ended: {0}")]
     Thread(String),

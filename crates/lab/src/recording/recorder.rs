@@ -16,8 +16,8 @@ use super::frame::RecordedFrame;
 use super::setup::Setup;
 use super::writer::Writer;
 use crate::inspect::{Breakpoints, ExplainedControl};
-use crate::run::{Trace, Watcher};
-use crate::trial::{Trial, TrialResult};
+use crate::run::{Run, Trace, Watcher};
+use crate::trial::Trial;
 use vibrissa_text::diagnostic::Source;
 use vibrissa_world::geometry::ContourSet;
 
@@ -33,7 +33,7 @@ pub struct Recorder {
     batch: Vec<RecordedFrame>,
     thread: Option<WriterThread>,
     /// What the thread needs before the first tick.
-    setup: Option<Box<(Setup, ContourSet)>>,
+    setup: Option<Box<(Setup, Option<ContourSet>)>>,
     /// The error at the first tick.
     failure: Option<RecordError>,
 }
@@ -50,36 +50,37 @@ impl Recorder {
     /// # Errors
     /// [`RecordError`] if a value cannot be encoded.
     pub fn new(trial: &Trial, artifact: &Artifact, policy: Option<Source>) -> Result<Self, RecordError> {
-        let setup = Setup::new(trial, artifact, policy)?;
-        let surfaces = trial.scene.truth.surfaces.clone();
-        Ok(Self {
+        let setup = Setup::of_trial(trial, artifact, policy)?;
+        Ok(Self::with_setup(setup, Some(trial.scene.truth.surfaces.clone())))
+    }
+
+    /// A recorder of a run with this setup. `surfaces` are the outlines of the objects, if they are known.
+    pub(super) fn with_setup(setup: Setup, surfaces: Option<ContourSet>) -> Self {
+        Self {
             samples: Vec::new(),
             batch: Vec::new(),
             thread: None,
             setup: Some(Box::new((setup, surfaces))),
             failure: None,
-        })
+        }
     }
 
-    /// The content of the file, after the run has ended.
+    /// The content of the file, after the run has ended. `outcome` says how.
     ///
     /// # Errors
     /// [`RecordError`] if the run had no tick, or if the recording cannot be encoded.
-    pub fn finish(mut self, result: &TrialResult) -> Result<Vec<u8>, RecordError> {
+    pub fn finish(mut self, outcome: String, run: &Run) -> Result<Vec<u8>, RecordError> {
         self.send();
         if let Some(failure) = self.failure {
             return Err(failure);
         }
-        let WriterThread { sender, handle } =
-            self.thread.ok_or_else(|| RecordError::Thread("the run had no tick".to_owned()))?;
+        let WriterThread { sender, handle } = self.thread.ok_or(RecordError::NoTick)?;
         drop(sender);
         let writer = handle.join().map_err(|_| RecordError::Thread("it panicked".to_owned()))??;
-        let mut outcome = BTreeMap::from([
-            ("outcome".to_owned(), result.ending().to_string()),
-            ("final_state".to_owned(), result.run.final_state.clone()),
-        ]);
-        outcome.extend(result.run.reason.clone().map(|reason| ("reason".to_owned(), reason)));
-        writer.finish(outcome)
+        let mut ending =
+            BTreeMap::from([("outcome".to_owned(), outcome), ("final_state".to_owned(), run.final_state.clone())]);
+        ending.extend(run.reason.clone().map(|reason| ("reason".to_owned(), reason)));
+        writer.finish(ending)
     }
 
     /// Passes the collected ticks on.
@@ -100,7 +101,7 @@ impl Recorder {
         }
         let (sender, receiver) = sync_channel(QUEUE);
         let thread = std::thread::Builder::new().name("recording".to_owned());
-        match thread.spawn(move || write(&setup.0, &setup.1, empty, &receiver)) {
+        match thread.spawn(move || write(&setup.0, setup.1.as_ref(), empty, &receiver)) {
             Ok(handle) => self.thread = Some(WriterThread { sender, handle }),
             Err(error) => self.failure = Some(RecordError::Thread(in_words(&error))),
         }
@@ -128,7 +129,7 @@ impl Watcher for Recorder {
 /// Writes all ticks that are received.
 fn write(
     setup: &Setup,
-    surfaces: &ContourSet,
+    surfaces: Option<&ContourSet>,
     trace: Trace,
     receiver: &Receiver<Vec<RecordedFrame>>,
 ) -> Result<Writer, RecordError> {

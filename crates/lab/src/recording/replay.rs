@@ -57,7 +57,8 @@ pub fn compare_policies(
 /// The first result of a tick that is not the recorded one: its name, the recorded value and the replayed one.
 fn first_difference(control: &Control, command: Command, recorded: &RecordedTick) -> Option<(String, String, String)> {
     let machine = control.machine();
-    let state = machine.failure().is_none().then(|| machine.state_name().to_owned());
+    // A tick keeps the state in which a success was found.
+    let state = machine.failure().is_none().then(|| machine.program().states[machine.state()].name.to_string());
     if state != recorded.state {
         let shown = |state: Option<String>| state.unwrap_or_else(|| "none".to_owned());
         return Some(("state".to_owned(), shown(recorded.state.clone()), shown(state)));
@@ -94,7 +95,7 @@ fn first_difference(control: &Control, command: Command, recorded: &RecordedTick
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
-    use crate::recording::Recorder;
+    use crate::recording::{RecordError, Recorder, record_samples};
     use crate::trial::Trial;
     use vibrissa_language as policy;
     use vibrissa_world::scenario;
@@ -105,20 +106,46 @@ mod tests {
 
     type Change = fn(&mut RecordedTick);
 
-    /// A recorded run of three seconds.
-    fn recording() -> RunRecording {
+    /// A recorded run of at most three seconds. Its state has this transition.
+    fn recording_with(transition: &str) -> RunRecording {
         let disk = built_in::SCENARIOS[0];
         let mut scene = scenario::read(&Source::new(disk.path, disk.text)).unwrap();
         (scene.stop.time, scene.stop.loop_closed) = (3.0, None);
-        let text = "machine m  whisker r0  initial Along  state Along { record r0  steer body along direction(body.yaw) at 50 mm/s \
-            turning 0 deg/s }";
-        let source = Source::new("m.fsm", text);
+        let text = format!(
+            "machine m  whisker r0  initial Along  state Along {{ record r0  steer body along direction(body.yaw) at 50 mm/s \
+             turning 0 deg/s  {transition} }}"
+        );
+        let source = Source::new("m.fsm", &text);
         let compiled = policy::compile_with_warnings(&source).unwrap();
         let mut trial = Trial::new(scene, Arc::new(compiled.artifact.program.clone()));
         trial.world = WorldKind::QuasiStatic.into();
         let mut recorder = Recorder::new(&trial, &compiled.artifact, Some(source)).unwrap();
         let result = trial.run_watched(&mut recorder).unwrap();
-        RunRecording::read(recorder.finish(&result).unwrap().as_slice()).unwrap()
+        RunRecording::read(recorder.finish(result.ending().to_string(), &result.run).unwrap().as_slice()).unwrap()
+    }
+
+    fn recording() -> RunRecording {
+        recording_with("")
+    }
+
+    #[test]
+    fn a_run_that_ends_by_success_or_failure_is_repeated() {
+        for end in ["Success", "Failure"] {
+            let run = recording_with(&format!("after 1 s -> {end}(\"done\")"));
+            assert!(run.ticks.len() < recording().ticks.len(), "it ended early: {}", run.ticks.len());
+            assert_eq!(replay(&run).unwrap().difference, None, "{end}");
+        }
+    }
+
+    #[test]
+    fn the_samples_of_a_run_alone_give_the_recording_of_its_ticks() {
+        let run = recording();
+        let content = record_samples(&run.artifact, &run.setup.rig, run.samples.clone()).unwrap();
+        let again = RunRecording::read(content.as_slice()).unwrap();
+        assert_eq!((&again.samples, &again.ticks), (&run.samples, &run.ticks));
+        assert_eq!(replay(&again).unwrap().difference, None);
+        let none = record_samples(&run.artifact, &run.setup.rig, Vec::new());
+        assert!(matches!(none, Err(RecordError::NoTick)), "{none:?}");
     }
 
     #[test]

@@ -7,12 +7,18 @@ use std::sync::Arc;
 use vibrissa_robot::drive::kept_for;
 use vibrissa_robot::recording::{ReadError, Recording, Replayed, replay_observed};
 use vibrissa_runtime::control::{BindError, Control};
-use vibrissa_runtime::machine::Program;
+use vibrissa_runtime::machine::{Artifact, Program};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::Sample;
 use vibrissa_text::diagnostic::Source;
+use vibrissa_world::scene::{Goal, Stop};
 
+use super::error::RecordError;
 use super::read::RunRecording;
+use super::recorder::Recorder;
+use super::sampled_world::SampledWorld;
+use super::setup::Setup;
+use crate::run::{Run, Watcher, drive};
 
 /// The samples of a recorded run, with the machine and the rig of its control.
 #[derive(Debug)]
@@ -55,6 +61,17 @@ impl SampledRun {
         control.keep_for(self.kept_for);
         Ok(control)
     }
+
+    /// Runs the machine over the samples. The result is `None` if the watcher ended the run.
+    ///
+    /// # Errors
+    /// [`BindError`] if the rig does not have what the machine needs.
+    pub fn drive(&self, watcher: &mut impl Watcher) -> Result<Option<Run>, BindError> {
+        let period = self.rig.sensing.control_rate.recip();
+        let stop = Stop::at(self.samples.len() as f64 * period);
+        let goal = Goal { stop: &stop, tunnels: &[] };
+        Ok(drive(&mut SampledWorld::new(&self.samples), self.control()?, goal, period, watcher))
+    }
 }
 
 impl From<&RunRecording> for SampledRun {
@@ -67,5 +84,30 @@ impl From<&RunRecording> for SampledRun {
             samples: recording.samples.clone(),
             kept_for: 0.0,
         }
+    }
+}
+
+/// The recording of a run that another program has driven: the content of a file as [`Recorder`] writes it, without objects. `samples`
+/// are those that `machine` has taken before each of its ticks, with this rig.
+///
+/// # Errors
+/// [`RecordError`] if there was no tick, if the rig does not have what the machine needs, or if a value cannot be encoded.
+pub fn record_samples(machine: &Artifact, rig: &Rig, samples: Vec<Vec<Sample>>) -> Result<Vec<u8>, RecordError> {
+    if samples.is_empty() {
+        return Err(RecordError::NoTick);
+    }
+    let setup = Setup::new(machine, rig, None, [])?;
+    let sampled = SampledRun {
+        identity: BTreeMap::new(),
+        rig: rig.clone(),
+        program: Arc::new(machine.program.clone()),
+        policy: None,
+        samples,
+        kept_for: 0.0,
+    };
+    let mut recorder = Recorder::with_setup(setup, None);
+    match sampled.drive(&mut recorder)? {
+        Some(run) => recorder.finish(run.outcome.to_string(), &run),
+        None => Err(RecordError::NoTick),
     }
 }

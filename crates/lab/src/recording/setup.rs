@@ -45,28 +45,43 @@ impl Setup {
     ///
     /// # Errors
     /// [`RecordError`] if a value cannot be encoded.
-    pub fn new(trial: &Trial, artifact: &Artifact, policy: Option<Source>) -> Result<Self, RecordError> {
+    pub fn of_trial(trial: &Trial, artifact: &Artifact, policy: Option<Source>) -> Result<Self, RecordError> {
         let mut artifact = artifact.clone();
         artifact.program = trial.program.as_ref().clone();
-        let machine = artifact.to_bytes()?;
-        let rig = serde_json::to_vec(&trial.assumed_rig)?;
         let named = trial.identity();
-        let entries = [
-            ("format", FORMAT.to_owned()),
-            ("kind", KIND.to_owned()),
-            ("program", concat!("vibrissa ", env!("CARGO_PKG_VERSION")).to_owned()),
+        let simulated = [
             ("scenario", named.scenario),
             ("scenario_hash", named.hash.scenario),
-            ("machine", named.policy),
             ("policy_hash", named.hash.policy),
             ("world", named.world),
             ("engine_hash", named.hash.engine),
             ("seed", named.seed.to_string()),
-            ("machine_sha256", sha256(&machine)),
-            ("rig_sha256", sha256(&rig)),
         ];
-        let identity = entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
-        Ok(Self { machine, rig: trial.assumed_rig.clone(), policy, identity })
+        Self::new(&artifact, &trial.assumed_rig, policy, simulated)
+    }
+
+    /// The setup of the machine `artifact` with the rig that its control assumes. `identity` has what else identifies the run.
+    ///
+    /// # Errors
+    /// [`RecordError`] if a value cannot be encoded.
+    pub(super) fn new<const N: usize>(
+        artifact: &Artifact,
+        rig: &Rig,
+        policy: Option<Source>,
+        identity: [(&str, String); N],
+    ) -> Result<Self, RecordError> {
+        let machine = artifact.to_bytes()?;
+        let rig_text = serde_json::to_vec(rig)?;
+        let entries = [
+            ("format", FORMAT.to_owned()),
+            ("kind", KIND.to_owned()),
+            ("program", concat!("vibrissa ", env!("CARGO_PKG_VERSION")).to_owned()),
+            ("machine", artifact.program.name.clone()),
+            ("machine_sha256", sha256(&machine)),
+            ("rig_sha256", sha256(&rig_text)),
+        ];
+        let identity = entries.into_iter().chain(identity).map(|(key, value)| (key.to_owned(), value)).collect();
+        Ok(Self { machine, rig: rig.clone(), policy, identity })
     }
 
     /// The attachments.

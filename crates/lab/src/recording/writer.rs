@@ -22,8 +22,9 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    /// Begins a recording. `trace` is a trace of the run without ticks.
-    pub(super) fn new(setup: &Setup, surfaces: &ContourSet, trace: Trace) -> Result<Self, RecordError> {
+    /// Begins a recording. `surfaces` are the outlines of the objects, if they are known. `trace` is a trace of the run without
+    /// ticks.
+    pub(super) fn new(setup: &Setup, surfaces: Option<&ContourSet>, trace: Trace) -> Result<Self, RecordError> {
         let context = Context::new();
         let options = McapWriteOptions::new().compression(Some(McapCompression::Zstd)).profile("");
         let file = context.mcap_writer_with_options(options).create(Cursor::new(Vec::new()))?;
@@ -33,7 +34,7 @@ impl Writer {
             file.attach(&McapAttachment { log_time: 0, create_time: 0, name, media_type, data })?;
         }
         let scenario = setup.identity.get("scenario").map_or("", String::as_str);
-        let channels = Channels::new(context, (&setup.rig, scenario), Some(surfaces), trace)?;
+        let channels = Channels::new(context, (&setup.rig, scenario), surfaces, trace)?;
         Ok(Self { file, channels })
     }
 
