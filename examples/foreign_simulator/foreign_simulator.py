@@ -9,6 +9,7 @@ Nothing of Vibrissa's simulators is used: the model below gives samples and take
 import argparse
 import csv
 import math
+import pathlib
 import sys
 
 import mujoco
@@ -133,7 +134,7 @@ def trace(policy, friction, time_limit_s, recording=None):
     else:
         end = f"{control.status}: {control.reason}" if control.reason else f"{control.status} after {state.time:.1f} s"
     if recording is not None:
-        control.write_recording(recording)
+        pathlib.Path(recording).write_bytes(control.recording())
     return np.array(tips).reshape(-1, 2), np.array(deviations), end
 # ANCHOR_END: loop
 

@@ -11,11 +11,11 @@ mod disk;
 mod editor;
 #[cfg(target_os = "linux")]
 mod faults;
+mod kept_scenes;
 #[cfg(feature = "live")]
 mod live;
 #[cfg(feature = "sim")]
 mod metrics;
-mod other_rigs;
 #[cfg(feature = "sim")]
 mod policies;
 #[path = "../common/snapshots.rs"]

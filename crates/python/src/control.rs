@@ -1,11 +1,10 @@
 //! The control loop of a machine.
 
-#[cfg(feature = "recording")]
-use std::path::PathBuf;
-
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+#[cfg(feature = "recording")]
+use pyo3::types::PyBytes;
 use pyo3::types::{PyDict, PyType};
 use vibrissa_runtime::geometry::{Pose, Vector2};
 #[cfg(feature = "recording")]
@@ -179,14 +178,14 @@ impl Control {
         self.inner.map().map(|map| of_map(py, map, &self.inner.machine().program().whiskers)).transpose()
     }
 
-    /// Writes the recording of the ticks so far, as `vibrissa replay` reads it.
+    /// The recording of the ticks so far: the content of a file that `vibrissa replay` reads.
     #[cfg(feature = "recording")]
-    fn write_recording(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    fn recording<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let Some(Kept { artifact, rig, samples }) = &self.kept else {
             return Err(error("the samples have not been kept; begin with `machine.start(rig, record=True)`"));
         };
         let content = py.detach(|| record_samples(artifact, rig, samples.clone())).map_err(error)?;
-        std::fs::write(&path, content).map_err(|cause| error(format_args!("{}: {cause}", path.display())))
+        Ok(PyBytes::new(py, &content))
     }
 
     #[staticmethod]

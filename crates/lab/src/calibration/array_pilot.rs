@@ -1,7 +1,11 @@
 //! Motion of an array between rests, and the mean readings of a rest.
 
+use std::f64::consts::PI;
+
 use vibrissa_runtime::calibration::TouchNoise;
 use vibrissa_runtime::math;
+use vibrissa_runtime::motion::ServoLead;
+use vibrissa_runtime::percept::Perception;
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Sample};
 
@@ -19,6 +23,10 @@ pub(super) struct ArrayPilot<'w> {
     speed: f64,
     heading: f64,
     body: Pose,
+    /// Measures the servos by the poses. `None` for a rig that cannot perceive.
+    perception: Option<Perception>,
+    /// Lets the platform move as one whose servos are those of the rig. Slower ones would overshoot.
+    servo_lead: ServoLead,
     ticks: u64,
     /// Standard deviations of the measured position (m, of each coordinate) and heading (rad).
     pub(super) noise: TouchNoise,
@@ -36,10 +44,8 @@ pub(super) struct Rest {
     pub(super) body: Pose,
     /// Standard deviations of the measured position (m, of each coordinate) and heading (rad).
     noise: TouchNoise,
-    /// Mean base angles (rad) and their standard deviations.
-    base_angles: [(f64, f64); MAX_WHISKERS],
-    /// Number of samples.
-    count: f64,
+    /// Base angles (rad).
+    base_angles: [Moments; MAX_WHISKERS],
 }
 
 /// Speed between touches (m/s), and the highest rate of the approach (1/s).
@@ -56,7 +62,7 @@ const PRESS_GAIN: f64 = 2.0;
 /// Time limit of a motion beyond that at full speed, in units of the inverse rate. The force of a whisker keeps the
 /// platform at a distance.
 const PATIENCE: f64 = 5.0;
-/// Time until whisker and platform are at rest (s), of a rest in the air, and of the rest that shows the noise of poses.
+/// Time until whisker and platform are at rest (s).
 pub(super) const SETTLING: f64 = 0.4;
 /// Time (s) of a window of readings. A whisker has settled if the means of two successive windows differ by no more than this (rad) or
 /// than this many standard deviations of their noise. And the longest time (s) until then.
@@ -64,7 +70,11 @@ const WINDOW: f64 = 0.2;
 const SETTLED: f64 = 5e-8;
 const CERTAIN: f64 = 3.0;
 const PATIENCE_AT_REST: f64 = 10.0;
-const IN_AIR: f64 = 0.3;
+/// Duration (s) of a rest in the air: two periods of the slowest first mode, 4 Hz. Hann's window is free of the swing from there on.
+const IN_AIR: f64 = 0.5;
+/// Least phase of a sample in that window, so that each has a weight.
+const LEAST_PHASE: f64 = 1e-3;
+/// Duration (s) of the rest that shows the noise of poses.
 const FIRST_REST: f64 = 20.0;
 /// Time of the motions of a touch (s), and the limits of the time of its rest.
 const MOTIONS: f64 = 5.0;
@@ -77,6 +87,8 @@ impl<'w> ArrayPilot<'w> {
             world,
             rate: rig.sensing.control_rate,
             gain: GAIN.min(0.25 / rig.platform.servo),
+            perception: Perception::new(rig, &[], &[]).ok(),
+            servo_lead: ServoLead::new(rig),
             speed: SPEED.min(rig.platform.speed_limit),
             heading: 0.0,
             body: Pose::UNKNOWN,
@@ -88,8 +100,8 @@ impl<'w> ArrayPilot<'w> {
         pilot.settle(0.0, |_| Command::STOP)?;
         let rest = pilot.rest(FIRST_REST, |_| Command::STOP)?;
         (pilot.heading, pilot.noise) = (rest.body.heading, rest.noise);
-        pilot.first_base_angles = rest.base_angles.map(|(mean, _)| mean);
-        pilot.first_noises = rest.base_angles.map(|(_, of_mean)| of_mean * rest.count.sqrt());
+        pilot.first_base_angles = rest.base_angles.map(|angle| angle.mean);
+        pilot.first_noises = rest.base_angles.map(|angle| angle.variance().sqrt());
         Ok(pilot)
     }
 
@@ -187,7 +199,18 @@ impl<'w> ArrayPilot<'w> {
 
     /// One tick. `look` receives each sample. A pose that is not a number keeps the last one.
     fn tick(&mut self, command: &Command, mut look: impl FnMut(&Sample)) -> Result<(), Fault> {
-        let samples = self.world.advance(command)?;
+        let command = match &mut self.perception {
+            Some(perception) => {
+                let command = self.servo_lead.next(*command, perception.servos());
+                perception.command(command);
+                command
+            }
+            None => *command,
+        };
+        let samples = self.world.advance(&command)?;
+        if let Some(perception) = &mut self.perception {
+            perception.update(samples);
+        }
         for sample in samples {
             look(sample);
             if sample.body.is_finite() {
@@ -218,7 +241,7 @@ impl<'w> ArrayPilot<'w> {
             for _ in 0..self.ticks(WINDOW) {
                 self.tick(&command(self), |sample| {
                     for (mean, reading) in now.iter_mut().zip(&sample.whiskers) {
-                        mean.add(reading.base_angle);
+                        mean.add(reading.base_angle, 1.0);
                     }
                 })?;
             }
@@ -238,22 +261,26 @@ impl<'w> ArrayPilot<'w> {
         Ok(())
     }
 
-    /// Executes commands and averages the samples of a time (s). Values that are not numbers are left out.
+    /// Executes commands and averages the samples of a time (s). Values that are not numbers are left out. The weights are those of
+    /// Hann's window, because of a whisker that still swings the mean over a window with abrupt ends depends on its phase.
     fn rest(&mut self, time: f64, command: impl Fn(&Self) -> Command) -> Result<Rest, Fault> {
         let (start, count) = (self.time(), self.ticks(time));
-        let (mut poses, mut angles): (Vec<Pose>, [Moments; MAX_WHISKERS]) = (Vec::new(), Default::default());
+        let (mut poses, mut angles): (Vec<(Pose, f64)>, [Moments; MAX_WHISKERS]) = (Vec::new(), Default::default());
+        let (mut first, duration) = (None, f64::from(count) / self.rate);
         for _ in 0..count {
             self.tick(&command(self), |sample| {
-                poses.extend(sample.body.is_finite().then_some(sample.body));
+                let passed = sample.time - *first.get_or_insert(sample.time);
+                let weight = math::square(math::sin(PI * (passed / duration).clamp(LEAST_PHASE, 1.0 - LEAST_PHASE)));
+                poses.extend(sample.body.is_finite().then_some((sample.body, weight)));
                 for (mean, reading) in angles.iter_mut().zip(&sample.whiskers) {
-                    mean.add(reading.base_angle);
+                    mean.add(reading.base_angle, weight);
                 }
             })?;
         }
         let coordinate = |value: fn(&Pose) -> f64| {
             let mut mean = Moments::default();
-            for pose in &poses {
-                mean.add(value(pose));
+            for (pose, weight) in &poses {
+                mean.add(value(pose), *weight);
             }
             mean
         };
@@ -266,8 +293,7 @@ impl<'w> ArrayPilot<'w> {
                 position: (0.5 * (x.variance() + y.variance())).sqrt(),
                 heading: heading.variance().sqrt(),
             },
-            count: angles[0].count,
-            base_angles: angles.map(|angle| (angle.mean, (angle.variance() / angle.count.max(1.0)).sqrt())),
+            base_angles: angles,
         })
     }
 }
@@ -275,29 +301,39 @@ impl<'w> ArrayPilot<'w> {
 impl Rest {
     /// Mean base angle (rad) of a whisker by its index, and its standard deviation.
     pub(super) fn base_angle(&self, whisker: usize) -> (f64, f64) {
-        self.base_angles.get(whisker).copied().unwrap_or_default()
+        self.base_angles.get(whisker).map(|angle| (angle.mean, angle.deviation_of_mean())).unwrap_or_default()
     }
 }
 
-/// Count, mean and sum of squared deviations, by Welford's method.
+/// Weighted mean and sum of squared deviations, by the method of West (Communications of the ACM 22, 1979).
 #[derive(Debug, Clone, Copy, Default)]
 struct Moments {
     count: f64,
+    weight: f64,
+    squared_weights: f64,
     mean: f64,
     squares: f64,
 }
 
 impl Moments {
-    fn add(&mut self, value: f64) {
-        if value.is_finite() {
+    fn add(&mut self, value: f64, weight: f64) {
+        if value.is_finite() && weight > 0.0 {
             self.count += 1.0;
+            self.weight += weight;
+            self.squared_weights += math::square(weight);
             let off = value - self.mean;
-            self.mean += off / self.count;
-            self.squares += off * (value - self.mean);
+            self.mean += weight / self.weight * off;
+            self.squares += weight * off * (value - self.mean);
         }
     }
 
+    /// Variance of a value, without bias for a large count.
     fn variance(&self) -> f64 {
-        self.squares / (self.count - 1.0).max(1.0)
+        if self.count < 2.0 { 0.0 } else { self.squares / self.weight * self.count / (self.count - 1.0) }
+    }
+
+    /// Standard deviation of the mean of independent values.
+    fn deviation_of_mean(&self) -> f64 {
+        if self.weight > 0.0 { (self.variance() * self.squared_weights).sqrt() / self.weight } else { 0.0 }
     }
 }

@@ -24,15 +24,15 @@ const GRID: (f64, f64, f64) = (2e-3, 4.0, 1.1);
 const DEGREE: usize = 3;
 /// Least number of samples, and the least share of what is not explained without damping that the damping explains.
 const LEAST: usize = 20;
-/// Number of samples before and after one that show its direction, in spite of noise.
+/// Number of samples before and after one that show its speed, in spite of noise.
 const AROUND: usize = 10;
 const LEAST_EXPLAINED: f64 = 0.5;
 
 /// The damping (s) of the material relative to its stiffness, from ticks that begin at rest.
 ///
-/// The reading of a shaft with the damping `T` is `a + T a'`, with the base angle `a` that the same shape has at rest. For each `T`, that
-/// equation gives `a` from the readings. The right one makes `a` a function of the displacement, apart from friction, which has one
-/// sign while the whisker is pressed and the other one while it is released. `None` if no damping explains the readings better.
+/// The reading of a shaft with the damping `T` is `a + T a'`, with the base angle `a` that the same shape has at rest, and `a` is a function
+/// of the displacement. Friction has one sign while the whisker is pressed and the other one while it is released. `None` if no damping
+/// explains the readings better.
 #[must_use]
 pub fn damping(pressed: &[Pressed]) -> Option<f64> {
     if pressed.len() < LEAST {
@@ -47,41 +47,38 @@ pub fn damping(pressed: &[Pressed]) -> Option<f64> {
     (least < (1.0 - LEAST_EXPLAINED) * without).then_some(best)
 }
 
-/// 1 while the displacement grows, and −1 while it decreases.
-fn way(pressed: &[Pressed], index: usize) -> f64 {
-    let (before, after) = (index.saturating_sub(AROUND), (index + AROUND).min(pressed.len() - 1));
-    (pressed[after].displacement - pressed[before].displacement).signum()
-}
-
-/// Share of the variance of the base angles at rest, for this damping (s), that a function of the displacement does not explain. A share,
-/// because a large damping makes all differences small.
+/// Share of the variance of the readings that this damping (s) and a function of the displacement do not explain.
 fn misfit(pressed: &[Pressed], damping: f64) -> Option<f64> {
     let first = pressed.first()?;
     let furthest = pressed.iter().map(|tick| (tick.displacement - first.displacement).abs()).fold(0.0, f64::max);
     if furthest == 0.0 {
         return None;
     }
-    let mut base_angle = first.reading;
-    let base_angles = DVector::from_iterator(
-        pressed.len(),
-        pressed.iter().map(|tick| {
-            let left = if damping > 0.0 { math::exp(-tick.period / damping) } else { 0.0 };
-            base_angle = tick.reading + (base_angle - tick.reading) * left;
-            base_angle
-        }),
-    );
+    let readings = DVector::from_iterator(pressed.len(), pressed.iter().map(|tick| tick.reading));
     let columns = DMatrix::from_fn(pressed.len(), DEGREE + 4, |row, column| {
-        let along = (pressed[row].displacement - first.displacement) / furthest;
-        if column > DEGREE + 1 {
-            let yielded = if column == DEGREE + 2 { pressed[row].aside / furthest } else { pressed[row].turn };
-            return yielded;
+        let (tick, speed) = (&pressed[row], speed(pressed, row));
+        let along = (tick.displacement - first.displacement) / furthest;
+        let power = |exponent: usize| math::powi(along, i32::try_from(exponent).unwrap_or(0));
+        match column.checked_sub(DEGREE + 1) {
+            None if column == 0 => 1.0,
+            // A term of the base angle at rest, and `T` times its growth.
+            None => power(column) + damping * column as f64 * power(column - 1) * speed / furthest,
+            Some(0) => speed.signum(),
+            Some(1) => tick.aside / furthest,
+            Some(_) => tick.turn,
         }
-        if column <= DEGREE { math::powi(along, i32::try_from(column).unwrap_or(0)) } else { way(pressed, row) }
     });
-    let solved = columns.clone().svd(true, true).solve(&base_angles, 1e-12).ok()?;
-    let variation = base_angles.add_scalar(-base_angles.mean()).norm_squared();
-    let share = (base_angles - columns * solved).norm_squared() / variation;
+    let solved = columns.clone().svd(true, true).solve(&readings, 1e-12).ok()?;
+    let variation = readings.add_scalar(-readings.mean()).norm_squared();
+    let share = (readings - columns * solved).norm_squared() / variation;
     share.is_finite().then_some(share)
+}
+
+/// Speed (m/s) along the line, by samples on both sides, because a single difference is mostly noise.
+fn speed(pressed: &[Pressed], index: usize) -> f64 {
+    let (before, after) = (index.saturating_sub(AROUND), (index + AROUND).min(pressed.len() - 1));
+    let time: f64 = pressed[before + 1..=after].iter().map(|tick| tick.period).sum();
+    (pressed[after].displacement - pressed[before].displacement) / time
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod next_touch;
 mod pluck;
 #[cfg(feature = "sim")]
 mod simulated_rig;
+mod sway;
 mod timed_readings;
 mod touch_file;
 mod touch_procedure;

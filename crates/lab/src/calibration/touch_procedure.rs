@@ -12,8 +12,9 @@ use std::f64::consts::{PI, TAU};
 use super::array_pilot::{ArrayPilot, Rest, SETTLING};
 use super::creep::{Pressed, damping};
 use super::pluck::Pluck;
+use super::sway::{Shaken, first_mode};
 use super::whisker_touches::WhiskerTouches;
-use vibrissa_world::geometry::{Point2, Pose, Vector2, rotate, turn_between, unit};
+use vibrissa_world::geometry::{Point2, Pose, Vector2, perpendicular, rotate, turn_between, unit};
 use vibrissa_world::world::{Fault, World};
 
 /// A round pin at a known position.
@@ -55,18 +56,24 @@ const STROKE_ROOM: f64 = 15e-3;
 /// Speeds (m/s) of these slides, and the path (m) over which their readings are averaged. Two speeds tell friction from a delay.
 const STROKE_SPEEDS: [f64; STROKES] = [1e-3, 4e-3, 1e-3];
 const STROKE_PATH: f64 = 2e-3;
-/// Share of the deflection by which the pin swings back and forth while it presses the whisker, and the time (s) of a swing.
-const SWING: f64 = 0.5;
-const SWING_TIME: f64 = 1.0;
+/// Share of the deflection by which the pin swings back and forth while it presses the whisker, and the time (s) of a swing. A whisker
+/// with a damping up to `(1 - SWING) SWING_TIME / (π SWING)`, 1.5 s, stays at the pin.
+const SWING: f64 = 0.3;
+const SWING_TIME: f64 = 2.0;
 /// Speed (m/s) at which the pin leaves the tip, and the time (s) in the air after that.
 const RELEASE_SPEED: f64 = 40e-3;
 const RELEASED: f64 = 3.0;
 /// Largest share of the motion of a swinging whisker that is not in its first mode.
 const MOST_MISFIT: f64 = 0.05;
+/// Frequency (Hz) at which the platform shakes a whisker that creeps, its speed (m/s), and the number of periods. A platform with slow
+/// servos can still follow, and four times the frequency is the slowest first mode.
+const SHAKE_RATE: f64 = 1.0;
+const SHAKE_SPEED: f64 = 0.1;
+const SHAKES: f64 = 3.0;
 /// Number of touches without a response after which the whisker is given up.
 const HOPELESS: usize = 4;
 /// Time (s) of the last motions of a touch and of the motion in the air, for which some of the limit is left.
-const LAST: f64 = 16.0;
+const LAST: f64 = 13.0 + 3.0 * SWING_TIME + SHAKES / SHAKE_RATE;
 /// Standard deviation of the mechanics as a position (m), and of a reading that is not due to noise (rad).
 const MODEL_POSITION: f64 = 1e-5;
 const MODEL_ANGLE: f64 = 2e-8;
@@ -309,7 +316,26 @@ impl<'p, 'w> Toucher<'p, 'w> {
         // The damping of the hinge delays what the damping of the shaft advances.
         let hinge = &self.whisker().hinge;
         let of_shaft = damping(&pressed).map(|damping| damping + hinge.damping / hinge.stiffness);
-        Ok(mode.or_else(|| of_shaft.map(|damping| FreeMotion::Creep { damping })))
+        if let (None, Some(damping)) = (mode, of_shaft) {
+            return Ok(Some(FreeMotion::Creep { damping, first_mode: self.shake()? }));
+        }
+        Ok(mode)
+    }
+
+    /// The first mode (Hz) of the whisker in the air, far from the pin, by its sway on a platform that moves to and fro.
+    fn shake(&mut self) -> Result<Option<f64>, Fault> {
+        let along = rotate(unit(self.whisker().base_pose().heading), self.pilot.heading());
+        let (index, left, from) = (self.index, perpendicular(along), self.pilot.position());
+        let mut shaken = Vec::new();
+        let velocity = |_: &ArrayPilot<'_>, time: f64| SHAKE_SPEED * math::sin(TAU * SHAKE_RATE * time) * left;
+        self.pilot.watch(SHAKES / SHAKE_RATE, velocity, |sample| {
+            let Some(reading) = sample.whiskers.get(index) else { return };
+            let (displacement, reading) = ((sample.body.position - from).dot(&left), reading.base_angle);
+            if displacement.is_finite() && reading.is_finite() {
+                shaken.push(Shaken { time: sample.time, displacement, reading });
+            }
+        })?;
+        Ok(first_mode(self.whisker(), SHAKE_RATE, &shaken))
     }
 
     /// True if the whisker in the air reads another base angle than before the last touch.

@@ -22,6 +22,9 @@ pub enum FreeMotion {
     Creep {
         /// Damping of the material relative to its stiffness (s).
         damping: f64,
+        /// Frequency of the first mode (Hz) without damping, if it was measured.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        first_mode: Option<f64>,
     },
 }
 
@@ -32,17 +35,21 @@ impl FreeMotion {
             Self::Mode { first_mode, decay } => {
                 (whisker.first_mode, whisker.decay) = (Some(first_mode), Some(decay));
             }
-            Self::Creep { damping } => {
+            Self::Creep { damping, first_mode } => {
                 (whisker.shaft.damping, whisker.decay) = (damping, None);
+                whisker.first_mode = first_mode.or(whisker.first_mode);
             }
         }
     }
 
     /// True if its numbers are those of a whisker.
     pub(super) fn is_sound(&self) -> bool {
+        let is_frequency = |first_mode: f64| (0.1..=1e4).contains(&first_mode);
         match *self {
-            Self::Mode { first_mode, decay } => (0.1..=1e4).contains(&first_mode) && (1e-4..=1e3).contains(&decay),
-            Self::Creep { damping } => (0.0..=10.0).contains(&damping),
+            Self::Mode { first_mode, decay } => is_frequency(first_mode) && (1e-4..=1e3).contains(&decay),
+            Self::Creep { damping, first_mode } => {
+                (0.0..=10.0).contains(&damping) && first_mode.is_none_or(is_frequency)
+            }
         }
     }
 }

@@ -50,10 +50,16 @@ impl Inertia {
     }
 }
 
+/// The base angle (rad) of an undeflected `whisker` per acceleration of its platform to the right of the shaft (m/s²).
+#[must_use]
+pub fn sway_by_acceleration(whisker: &Whisker) -> f64 {
+    Inertia::new(whisker).first
+}
+
 /// Ratio of the base angles of `whisker` and of the reference whisker by inertia, on a platform with the same acceleration.
 pub(super) fn sway(whisker: &Whisker) -> f64 {
-    let of = |whisker: &Whisker| Inertia::new(whisker).first;
-    Rig::default().whiskers.first().map_or(1.0, |reference| of(whisker) / of(reference))
+    let reference = |reference: &Whisker| sway_by_acceleration(whisker) / sway_by_acceleration(reference);
+    Rig::default().whiskers.first().map_or(1.0, reference)
 }
 
 /// Acceleration of a platform.

@@ -38,6 +38,7 @@ mod whisker;
 pub(crate) use base_angle::MODEL_DEVIATION;
 pub use contact::Contact;
 pub use contact_estimator::ContactEstimator;
+pub use inertia::sway_by_acceleration;
 pub use local_contour::LocalContour;
 pub use loop_watch::LoopWatch;
 pub use low_pass::{CutoffError, LowPass};

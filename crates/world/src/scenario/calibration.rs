@@ -61,8 +61,11 @@ fn values(calibration: &Calibration) -> String {
         Some(FreeMotion::Mode { first_mode, decay }) => {
             let _ = writeln!(text, "free_motion:\n  mode:\n    first_mode: {first_mode:?}\n    decay: {decay:?}");
         }
-        Some(FreeMotion::Creep { damping }) => {
+        Some(FreeMotion::Creep { damping, first_mode }) => {
             let _ = writeln!(text, "free_motion:\n  creep:\n    damping: {damping:?}");
+            if let Some(first_mode) = first_mode {
+                let _ = writeln!(text, "    first_mode: {first_mode:?}");
+            }
         }
         None => {}
     }
