@@ -34,7 +34,6 @@ pub fn replay_setup(recorded: &SampledRun, scene: Option<Scene>, trial: Option<T
 
 /// The first recorded pose. A faulty pose may be no number.
 fn first_pose(recorded: &SampledRun) -> Option<Pose> {
-    let is_finite =
-        |pose: &Pose| [pose.position.x, pose.position.y, pose.heading].iter().all(|part| part.is_finite());
+    let is_finite = |pose: &Pose| [pose.position.x, pose.position.y, pose.heading].iter().all(|part| part.is_finite());
     recorded.samples.iter().flatten().map(|sample| sample.body).find(is_finite)
 }

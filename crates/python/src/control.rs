@@ -6,9 +6,9 @@ use pyo3::prelude::*;
 #[cfg(feature = "recording")]
 use pyo3::types::PyBytes;
 use pyo3::types::{PyDict, PyType};
-use vibrissa_runtime::geometry::{Pose, Vector2};
 #[cfg(feature = "recording")]
 use vibrissa::recording::record_samples;
+use vibrissa_runtime::geometry::{Pose, Vector2};
 use vibrissa_runtime::machine::{Artifact, LoggedMessage, Senses, Status, WhiskerScalar, WhiskerVector};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal;

@@ -34,6 +34,8 @@ pub(super) struct PlatformMotion {
     known: usize,
     /// Averages of squared differences (m²), by delay, of translation and rotation.
     costs: [[EachServo; 2]; DELAYS],
+    /// The same averages of the squared measured motions (m²).
+    moved: [f64; 2],
     /// Pose of the last tick, or unknown.
     pose: Pose,
     /// The current command.
@@ -118,6 +120,7 @@ impl PlatformMotion {
             newest: 0,
             known: 0,
             costs: [[[0.0; SERVOS.len()]; 2]; DELAYS],
+            moved: [0.0; 2],
             pose: Pose::UNKNOWN,
             command: Command::STOP,
             stated,
@@ -184,6 +187,10 @@ impl PlatformMotion {
         }
         let turn = turn_between(before.heading, pose.heading);
         let measured = (pose.position - before.position).push(turn);
+        let squares = [measured.xy().norm_squared(), math::square(ARM * measured.z)];
+        for (moved, square) in self.moved.iter_mut().zip(squares) {
+            *moved = *moved * REMEMBERED + square;
+        }
         for (delay, costs) in self.costs.iter_mut().enumerate() {
             let back = delay * DELAY_STEPS;
             let end = &self.motions[earlier(self.newest, back)];
@@ -211,7 +218,7 @@ impl PlatformMotion {
                 (at, best) = (delay, translation + rotation);
             }
         }
-        if !is_shown(best, stated[0] + stated[1]) {
+        if !is_shown(best, stated[0] + stated[1], self.moved[0] + self.moved[1]) {
             self.is_settled = false;
             return;
         }
@@ -223,7 +230,7 @@ impl PlatformMotion {
         self.delay += (delay - self.delay) * share;
         for kind in [0, 1] {
             // A platform that only translates shows nothing of its other servo.
-            if !is_shown(least[at][kind], stated[kind]) {
+            if !is_shown(least[at][kind], stated[kind], self.moved[kind]) {
                 continue;
             }
             let costs = &self.costs[at][kind];
@@ -276,9 +283,10 @@ impl PlatformMotion {
 }
 
 /// True if the `least` sum of squared differences (m²) shows that the delay or a servo is not the stated one, which leaves
-/// `stated`.
-fn is_shown(least: f64, stated: f64) -> bool {
-    stated >= LEAST_COST && least <= MOST_LEFT * stated
+/// `stated`. It must also explain what the platform has `moved` (m²), because one that stands still at a wall from the start looks like
+/// one that begins to move slowly.
+fn is_shown(least: f64, stated: f64, moved: f64) -> bool {
+    stated >= LEAST_COST && least <= MOST_LEFT * math::min(stated, moved)
 }
 
 /// The index of the step so many steps before `newest`.
