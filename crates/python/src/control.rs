@@ -37,6 +37,10 @@ pub(crate) struct Control {
 }
 
 /// What a recording of a control loop needs.
+#[cfg_attr(
+    not(feature = "recording"),
+    expect(dead_code, reason = "nothing reads the artifact and the rig without recordings")
+)]
 pub(crate) struct Kept {
     pub(crate) artifact: Artifact,
     pub(crate) rig: Rig,
