@@ -20,6 +20,7 @@ use vibrissa_lab::recording::{ReadRecordingError, RecordError};
 use vibrissa_lab::report::ChartTooLarge;
 use vibrissa_lab::request::RequestError;
 use vibrissa_lab::study::compare::OlderRunsError;
+use vibrissa_lab::study::scale::ScaleError;
 use vibrissa_lab::study::stress::CaseError;
 use vibrissa_lab::sweep::ResultsError;
 use vibrissa_lab::trial::{ExecuteError, StartError, Trial, TrialFault};
@@ -165,6 +166,8 @@ pub(super) enum Failure {
     Answer(serde_json::Error),
     #[error("a stress test cannot be made: {0}; this is a fault of the program, please report it")]
     Case(#[from] CaseError),
+    #[error(transparent)]
+    Scale(#[from] ScaleError),
     #[error("cannot write to standard output: {words}", words = in_words(.0))]
     Print(std::io::Error),
     #[cfg(feature = "lsp")]
@@ -298,6 +301,7 @@ impl Failure {
             | Self::Touches(_)
             | Self::NoDraw(NoDraw::Random { .. })
             | Self::NoCase(_)
+            | Self::Scale(ScaleError::Text(_))
             | Self::Answer(_) => Exit::Internal,
             _ => Exit::Unusable,
         }

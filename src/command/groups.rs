@@ -8,8 +8,8 @@ use clap::{Command, CommandFactory, Subcommand};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::{
-    Arguments, completions, diff, estimators, explain, keep, man, merge, mjcf, near_misses, pareto, services, stress,
-    timing, worlds,
+    Arguments, completions, diff, estimators, explain, keep, man, merge, mjcf, near_misses, pareto, scale, services,
+    stress, timing, worlds,
 };
 
 /// The commands that people see, under the headings of the help.
@@ -30,6 +30,8 @@ pub(super) enum Study {
     Worlds(worlds::WorldsArguments),
     /// Measure run times
     Timing(timing::TimingArguments),
+    /// Measure how costs grow with sizes, and what a sweep of a million runs costs
+    Scale(scale::ScaleArguments),
     /// Measure run time against error over the settings of a simulation
     Pareto(pareto::ParetoArguments),
     /// Run stress tests of the simulators, and find the largest stable steps
@@ -44,6 +46,7 @@ impl Study {
             Self::Estimators(arguments) => estimators::estimators(arguments),
             Self::Worlds(arguments) => worlds::worlds(arguments),
             Self::Timing(arguments) => timing::timing(arguments),
+            Self::Scale(arguments) => scale::scale(arguments),
             Self::Pareto(arguments) => pareto::pareto(arguments),
             Self::Stress(arguments) => stress::stress(arguments),
             Self::Merge(arguments) => merge::merge(arguments),

@@ -42,6 +42,7 @@ mod reports;
 mod run;
 mod run_outputs;
 mod run_recording;
+mod scale;
 #[cfg(test)]
 mod schema;
 mod services;

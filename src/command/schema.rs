@@ -11,6 +11,7 @@ use vibrissa_lab::study::bench::BenchRow;
 use vibrissa_lab::study::compare::Comparison;
 use vibrissa_lab::study::estimators::EstimatorRow;
 use vibrissa_lab::study::pareto::Pareto;
+use vibrissa_lab::study::scale::Scale;
 use vibrissa_lab::study::stress::StressRow;
 use vibrissa_lab::study::timing::TimingRow;
 use vibrissa_lab::study::worlds::WorldsRow;
@@ -50,6 +51,7 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<FamilyRun>(),
         schema::<Comparison>(),
         schema::<Pareto>(),
+        schema::<Scale>(),
         schema::<StressRow>(),
         schema::<Header>(),
         schema::<SweepLine>(),

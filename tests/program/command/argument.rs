@@ -140,6 +140,7 @@ fn unusable_arguments_have_exit_status_2_and_say_what_to_do() {
 fn every_count_is_refused_with_its_range_which_the_help_states() {
     for (command, count, range) in [
         ("study timing", "--repeats", "from 1 to 1000"),
+        ("study scale", "--repeats", "from 1 to 1000"),
         ("bench", "--jobs", "from 1 to "),
         ("study pareto", "--repeats", "from 1 to 1000"),
         ("compare", "--seeds", "from 1 to 100000"),

@@ -33,6 +33,7 @@ mod report;
 mod run;
 #[cfg(feature = "recording")]
 mod run_recording;
+mod scale;
 pub(crate) mod schema;
 mod services;
 #[cfg(unix)]

@@ -69,6 +69,9 @@ fn named(command: &str, has_policy: bool) -> Vec<String> {
     if verb == "families" && !has_policy {
         files.push(POLICIES[1].to_owned());
     }
+    if verb == "scale" {
+        files.extend([POLICIES[0], "policies/bang.fsm"].map(str::to_owned));
+    }
     if verb == "pareto" {
         files.extend(["scenarios/disk.yaml", PLAUSIBLE].map(str::to_owned));
     }

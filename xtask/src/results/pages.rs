@@ -82,7 +82,7 @@ pub(crate) const FAMILIES: [&str; 2] = [
 ];
 
 /// All pages, roughly those first that take least time.
-pub(super) const PAGES: [Page; 15] = [
+pub(super) const PAGES: [Page; 16] = [
     Page {
         name: "disk",
         title: "Picture of the disk",
@@ -122,6 +122,16 @@ pub(super) const PAGES: [Page; 15] = [
         has_times: true,
         is_slow: false,
         content: Content::Tables(tables::timing),
+    },
+    Page {
+        name: "scale",
+        title: "Cost against size",
+        about: "[Exponents of costs](../bench.md#vibrissa-study-scale), and the cost of a sweep of a million runs.",
+        commands: &["study scale --json"],
+        code: &["crates/lab/src/study/scale"],
+        has_times: true,
+        is_slow: false,
+        content: Content::Tables(tables::scale),
     },
     Page {
         name: "thesis-array",

@@ -92,7 +92,7 @@ impl Stamp {
 /// The stored figures that stand for the program: those of the simulators that the commands run, under the policies that they run.
 /// Those of the policy that hardly changes, `thesis.fsm`, stand for the program under all other policies.
 fn figures(commands: &[&str], files: &BTreeSet<String>) -> Vec<String> {
-    const BOTH: [&str; 3] = ["worlds", "pareto", "stress"];
+    const BOTH: [&str; 4] = ["worlds", "pareto", "stress", "scale"];
     let mut found = Vec::new();
     for (world, is_default) in [("mujoco", true), ("quasistatic", false)] {
         let runs = |command: &&&str| {

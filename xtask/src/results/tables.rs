@@ -257,6 +257,79 @@ pub(super) fn timing(outputs: &[Json]) -> Result<String, NoKey> {
     tables.collect()
 }
 
+pub(super) fn scale(outputs: &[Json]) -> Result<String, NoKey> {
+    const AXIS: [Column; 2] = [Column("axis", "axis", Plain), Column("simulator", "simulator", Plain)];
+    let [scale, ..] = outputs else { return Err(NoKey("axes".to_owned())) };
+    let axes = value(scale, "axes")?.items();
+    let exponents = [&AXIS[..], &[Column("work", "work", Plain), Column("exponent", "exponent", Fixed(2))]].concat();
+    let times = [Column("size", "size", Plain), Column("unit", "unit", Plain), Column("time, s", "time_s", Fixed(3))];
+    let sizes = axes.iter().map(sizes).collect::<Result<Vec<_>, NoKey>>()?.concat();
+    let sweeps = value(scale, "sweeps")?.items();
+    let costs = [
+        AXIS[1],
+        Column("one processor, h", "processor_hours", Fixed(1)),
+        Column("this machine, h", "machine_hours", Fixed(1)),
+        Column("array of jobs, min", "array_minutes", Fixed(2)),
+        Column("merge, min", "merge_minutes", Fixed(1)),
+        Column("results, GB", "results_gb", Fixed(1)),
+    ];
+    let units = [
+        AXIS[1],
+        Column("run with its line of results, ms", "run_ms", Fixed(1)),
+        Column("line of results, bytes", "line_bytes", Plain),
+        Column("job without runs, s", "job_start_s", Fixed(2)),
+    ];
+    let sweep = sweeps.first().ok_or_else(|| NoKey("sweeps".to_owned()))?;
+    let (repeats, processors) = (number(scale, "repeats")?, number(scale, "processors")?);
+    let (runs, jobs) = (number(sweep, "runs")?, number(sweep, "jobs")?);
+    Ok(format!(
+        "
+Times are medians of {repeats} measurements: processor time, and wall time for the cores. A cost grows as the size to the power of the \
+exponent, which is the slope between the two largest sizes on logarithmic axes. Fixed costs hide it at smaller sizes.
+
+## Exponents
+
+{}
+## Times
+
+{}
+## A sweep of {runs} runs
+
+The run is that of the disk of the bench under `thesis.fsm`. This machine has {processors} processors. The array has {jobs} jobs of one \
+processor each, all at a time. Waiting for disks and for the scheduler does not count.
+
+{}
+These costs follow from the measured costs of one run, of one line and of one job:
+
+{}
+Under Slurm, this command submits the array, and the second one merges its results:
+
+    sbatch --array=1-{jobs} deploy/slurm/sweep.sbatch FILE DIR
+    vibrissa study merge DIR
+
+Job K of the array runs one shard, as any other machine can ([sweeps](../sweeps.md#several-machines)):
+
+    vibrissa sweep FILE --shard K/{jobs} --out DIR
+",
+        table(axes, &exponents)?,
+        table(&sizes, &[&AXIS[..], &times].concat())?,
+        table(sweeps, &costs)?,
+        table(sweeps, &units)?
+    ))
+}
+
+/// The times of an axis, each with the axis and its simulator.
+fn sizes(axis: &Json) -> Result<Vec<Json>, NoKey> {
+    let shared = ["axis", "simulator", "unit"].map(|key| Ok((key.to_owned(), value(axis, key)?.clone())));
+    let shared = shared.into_iter().collect::<Result<Vec<_>, NoKey>>()?;
+    let with_axis = |time: &Json| {
+        let Json::Object(mut entries) = time.clone() else { return Err(NoKey("times".to_owned())) };
+        entries.extend(shared.iter().cloned());
+        Ok(Json::Object(entries))
+    };
+    value(axis, "times")?.items().iter().map(with_axis).collect()
+}
+
 pub(super) fn pareto(outputs: &[Json]) -> Result<String, NoKey> {
     let columns = [
         Column("setting", "setting", Plain),

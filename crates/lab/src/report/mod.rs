@@ -19,7 +19,7 @@ pub use style::WHISKERS;
 pub use table::Table;
 pub use tables::{
     bench_table, comparison_tables, difference_tables, estimators_tables, latency_table, near_miss_table, pareto_table,
-    pooled_tips, results_table, stop_tables, stress_tables, timing_table, worlds_table,
+    pooled_tips, results_table, scale_tables, stop_tables, stress_tables, timing_table, worlds_table,
 };
 pub use tables::{families_table, held_out_table, measured_table, summary_table, tuning_tables};
 #[cfg(feature = "robot")]

@@ -5,6 +5,7 @@ pub mod compare;
 pub mod estimators;
 pub mod latency;
 pub mod pareto;
+pub mod scale;
 pub mod stress;
 pub mod timing;
 pub mod worlds;

@@ -12,6 +12,7 @@ mod output;
 mod regular;
 mod replace;
 mod special;
+mod temporary_folder;
 
 pub use cache::{Cache, hex};
 pub use command_files::CommandFiles;
@@ -20,3 +21,4 @@ pub use output::{Output, OutputError};
 pub use regular::read;
 pub use regular::{append, open};
 pub use replace::{replace, sync_name};
+pub use temporary_folder::TemporaryFolder;

@@ -8,7 +8,7 @@ use super::identity::{folder, resolve_links};
 
 /// Prefix of temporary files. Random letters and digits follow, and then `.tmp`. Such a file remains only if the
 /// program was killed.
-const PREFIX: &str = ".vibrissa-";
+pub(super) const PREFIX: &str = ".vibrissa-";
 const SUFFIX: &str = ".tmp";
 const RANDOM: usize = 12;
 

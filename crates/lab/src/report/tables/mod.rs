@@ -13,6 +13,7 @@ mod pareto;
 #[cfg(feature = "robot")]
 mod replay;
 pub(super) mod results;
+mod scale;
 mod stop;
 mod stress;
 mod sweep;
@@ -34,6 +35,7 @@ pub use pareto::pareto_table;
 #[cfg(feature = "robot")]
 pub use replay::replay_tables;
 pub use results::results_table;
+pub use scale::scale_tables;
 pub use stop::{difference_tables, stop_tables};
 pub use stress::stress_tables;
 pub use sweep::summary_table;
