@@ -45,6 +45,11 @@ pub(crate) enum InstructionsError {
     Build,
     #[error("{}: {source}; look at its permissions", path.display())]
     File { path: PathBuf, source: io::Error },
+    #[error(
+        "{} is not there, so there is nothing to compare with; store the first counts: cargo x instructions --accept \"WHY\"",
+        path.display()
+    )]
+    NoCounts { path: PathBuf },
     #[error("{}, line {line}: this is not a name, a count and a reason; accept all counts anew", path.display())]
     Line { path: PathBuf, line: usize },
     #[error("`vibrissa {arguments}` was not counted: {told}")]
@@ -60,6 +65,9 @@ pub(crate) enum InstructionsError {
     #[error(transparent)]
     Cargo(#[from] NotStarted),
 }
+
+/// Millions of instructions of runs by name, each with the reason of its last change.
+type Counts = BTreeMap<String, (f64, String)>;
 
 /// A run of the program.
 struct Run {
@@ -114,6 +122,8 @@ fn scenarios() -> [(&'static str, String); 3] {
 
 /// Counts the instructions of all runs and compares them with the stored ones.
 pub(crate) fn instructions(root: &Path, options: &Options) -> Result<(), InstructionsError> {
+    let path = root.join(STORED);
+    let stored = stored(&path, options.accept.is_some())?;
     let has_valgrind = Command::new("valgrind").arg("--version").stdout(Stdio::null()).status();
     if !has_valgrind.is_ok_and(|status| status.success()) {
         println!("Instructions are not counted: there is no `valgrind` (the Debian package of that name).");
@@ -133,12 +143,6 @@ pub(crate) fn instructions(root: &Path, options: &Options) -> Result<(), Instruc
         let path = folder.join(name);
         fs::write(&path, text).map_err(fault(&path))?;
     }
-    let path = root.join(STORED);
-    let stored = match fs::read_to_string(&path) {
-        Ok(text) => read(&text).map_err(|line| InstructionsError::Line { path: path.clone(), line })?,
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => BTreeMap::new(),
-        Err(source) => return Err(InstructionsError::File { path, source }),
-    };
     for arguments in FIRST {
         let mut command = Command::new(&program);
         command.current_dir(root).env(CACHE.0, folder.join(CACHE.1));
@@ -198,8 +202,23 @@ fn collected(told: &str) -> Option<f64> {
     behind.split_whitespace().next()?.parse().ok()
 }
 
-/// The stored counts with the reasons of their last changes, or the number of a line that has none.
-fn read(text: &str) -> Result<BTreeMap<String, (f64, String)>, usize> {
+/// The stored counts in the file at `path`. Only if new ones are accepted, there need not be any.
+fn stored(path: &Path, are_accepted: bool) -> Result<Counts, InstructionsError> {
+    match fs::read_to_string(path) {
+        Ok(text) => read(&text).map_err(|line| InstructionsError::Line { path: path.to_owned(), line }),
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => {
+            if are_accepted {
+                Ok(Counts::new())
+            } else {
+                Err(InstructionsError::NoCounts { path: path.to_owned() })
+            }
+        }
+        Err(source) => Err(InstructionsError::File { path: path.to_owned(), source }),
+    }
+}
+
+/// The counts of a text, or the number of a line that has none.
+fn read(text: &str) -> Result<Counts, usize> {
     let lines = text.lines().enumerate().skip(1);
     let read = lines.map(|(index, line)| {
         let (name, rest) = line.split_once(',').ok_or(index + 1)?;
@@ -228,6 +247,13 @@ mod tests {
         let expected = (12.5, "scores on demand, and more".to_owned());
         assert_eq!(read, Ok(BTreeMap::from([("disk, MuJoCo".to_owned(), expected)])));
         assert_eq!(super::read("heading\ndisk\n"), Err(2));
+    }
+
+    #[test]
+    fn counts_that_are_not_there_are_an_error_unless_new_ones_are_accepted() {
+        let path = Path::new("no-such-folder/instructions.csv");
+        assert!(matches!(stored(path, false), Err(InstructionsError::NoCounts { .. })));
+        assert!(stored(path, true).is_ok_and(|counts| counts.is_empty()));
     }
 
     #[test]
