@@ -17,6 +17,10 @@ pub struct Figures {
     pub passed_but_for_tips: bool,
     /// True if the body touched something.
     pub collided: bool,
+    /// True if a whisker slipped over or under an object.
+    pub slipped: bool,
+    /// The share of the exact contour that was traced, 0 to 1.
+    pub coverage: Option<f64>,
     /// Mean of its errors (mm).
     pub error_mean_mm: Option<f64>,
     /// 95th percentile of its errors (mm).
@@ -81,6 +85,8 @@ impl Figures {
             passed: false,
             passed_but_for_tips: false,
             collided: figure(Metric::Collisions).is_some_and(|count| count > 0.0),
+            slipped: figure(Metric::Slips).is_some_and(|count| count > 0.0),
+            coverage: figure(Metric::Coverage),
             error_mean_mm: figure(Metric::ErrorMean),
             error_p95_mm: figure(Metric::ErrorP95),
             tips: TipShares::of_figures(figure),
@@ -127,8 +133,12 @@ pub struct Tally {
     pub collided: usize,
     /// Number of runs that took place and in which the body touched nothing.
     pub collision_free: usize,
+    /// Number of runs in which a whisker slipped over or under an object. Planar whiskers cannot.
+    pub slipped: usize,
     /// The rates behind some of these numbers. `None` without runs.
     pub rates: Option<Rates>,
+    /// Mean of the coverages of the completed runs, 0 to 1.
+    pub coverage: Option<f64>,
     /// Mean of the mean errors of the completed runs (mm).
     pub error_mean_mm: Option<f64>,
     /// The 95 % interval of that mean. `None` with fewer than two completed runs.
@@ -177,7 +187,9 @@ impl Tally {
             refused: ended(Ending::Refused),
             collided: count(&|run| run.collided),
             collision_free: count(&|run| !run.collided && run.ending.took_place()),
+            slipped: count(&|run| run.slipped),
             rates: None,
+            coverage: mean(completed().filter_map(|run| run.coverage)),
             error_mean_mm: mean(completed().filter_map(|run| run.error_mean_mm)),
             error_mean_interval_mm: Statistics::of(completed().filter_map(|run| run.error_mean_mm).collect())
                 .and_then(|errors| errors.mean_interval()),

@@ -392,6 +392,8 @@ mod tests {
             passed,
             passed_but_for_tips: passed,
             collided: false,
+            slipped: false,
+            coverage: Some(1.0),
             error_mean_mm: Some(0.02),
             error_p95_mm: Some(0.05),
             tips: TipShares::default(),
