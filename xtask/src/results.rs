@@ -6,6 +6,7 @@ mod mismatch;
 mod pages;
 mod program;
 mod readme;
+mod real;
 mod reproduction;
 mod stale;
 mod stamp;

@@ -1,7 +1,7 @@
 //! The pages: what each says, and the commands that it is made of. Its stamp, its head and the check are derived from this table.
 
 use super::table::NoKey;
-use super::{FOLDER, mismatch, reproduction, sums, tables};
+use super::{FOLDER, mismatch, real, reproduction, sums, tables};
 use crate::json::Json;
 
 /// A page of results.
@@ -273,6 +273,27 @@ pub(super) const PAGES: [Page; 16] = [
         has_times: false,
         is_slow: true,
         content: Content::Tables(mismatch::page),
+    },
+    Page {
+        name: "real",
+        title: "Results with real arrays",
+        about: "What each [difference](../mismatch.md) between a real array and its model costs, alone and together, in the scenes of [the bench](../bench.md) in MuJoCo.",
+        commands: &[
+            "sweep sweeps/differences.yaml --uncalibrated --out out/uncalibrated --json",
+            "sweep sweeps/differences.yaml --out out/calibrated --json",
+            "sweep sweeps/real.yaml --out out/real --json",
+            "sweep sweeps/real.yaml --mismatch scenarios/mismatch/real.yaml --out out/together --json",
+        ],
+        code: &[
+            "crates/runtime/src/calibration",
+            "crates/lab/src/calibration",
+            "crates/declare/src/mismatch",
+            "crates/world/src/mismatch",
+            "crates/mujoco/src",
+        ],
+        has_times: false,
+        is_slow: true,
+        content: Content::Tables(real::page),
     },
 ];
 
