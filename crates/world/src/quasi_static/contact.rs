@@ -206,8 +206,11 @@ impl Pair {
                 let (along, aside) = link_coordinates(shape, link, corner.point);
                 let is_beside = along > 0.0 && along < rod.link;
                 // The sign changes only beyond the ends of the link, or after the end has moved from a facet over the
-                // corner. In the second case all solid material is on the side of the corner.
-                if !is_beside || corner.side_of(shape.left(link)) == Some(aside.signum()) {
+                // corner. In the second case all solid material is on the side of the corner, or the link points into it
+                // and its end can be past the corner on this side alone.
+                let (tangent, left) = (shape.tangents[link], shape.left(link));
+                let is_known = |side: Option<f64>| side == Some(aside.signum());
+                if !is_beside || is_known(corner.side_of(left)) || is_known(corner.side_past(tangent, left)) {
                     *side = aside.signum();
                 }
                 is_beside.then(|| of_side(anchor, corner.point, (along, aside), *side, 0.0))

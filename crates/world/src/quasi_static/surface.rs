@@ -306,6 +306,21 @@ impl Corner {
         (behind * before > 0.0).then(|| before.signum())
     }
 
+    /// Returns the side of a link on which the corner is, if the link points into the solid along `tangent` and its end is
+    /// past the corner: +1 towards `left`, −1 away from it. `None` if the end can be past the corner on either side.
+    pub(super) fn side_past(&self, tangent: Vector2, left: Vector2) -> Option<f64> {
+        if self.incoming.perp(&tangent) <= 0.0 || self.outgoing.perp(&tangent) <= 0.0 {
+            return None;
+        }
+        // An end past the corner is outside only above a facet that descends along the link.
+        let facets = [-self.incoming, self.outgoing];
+        match facets.map(|facet| facet.dot(&tangent) > 0.0) {
+            [true, false] => Some(-facets[0].dot(&left).signum()),
+            [false, true] => Some(-facets[1].dot(&left).signum()),
+            _ => None,
+        }
+    }
+
     /// Projects a point onto the corner. Returns `None` if a neighbouring facet is nearer.
     pub(super) fn project(&self, point: Point2) -> Option<Projection> {
         let outward = point - self.point;

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::{circle, polygon, unit};
+use crate::geometry::{circle, polygon, regular_polygon, unit};
 use crate::solid::Solid;
 use vibrissa_runtime::rig::Rig;
 
@@ -71,6 +71,7 @@ impl Obstacle {
 fn obstacles() -> impl Strategy<Value = Obstacle> {
     prop_oneof![
         5 => (0.1..3.0_f64).prop_map(Obstacle::Wedge),
+        2 => (3.0..3.14_f64).prop_map(Obstacle::Wedge),
         2 => (2e-3..10e-3_f64).prop_map(Obstacle::Blade),
         1 => (0.5e-3..10e-3_f64).prop_map(Obstacle::Pin),
         1 => (0.3..2.6_f64).prop_map(Obstacle::InnerCorner),
@@ -205,5 +206,29 @@ fn nor_does_one_that_did() {
     ];
     for (obstacle, path, beginning) in paths {
         assert_eq!(pass(obstacle, &path, beginning), Ok(true), "{obstacle:?} {path:?}");
+    }
+}
+
+/// A whisker that meets a polygon steeply, and is swept over a blunt corner by the rotation of the platform.
+#[test]
+fn a_steep_whisker_passes_a_blunt_corner_without_a_sample_off_balance() {
+    let rig = Rig::default();
+    let whisker = &rig.whiskers[0];
+    for sides in [60, 72, 80, 100, 150, 300] {
+        let outline = regular_polygon(Point2::new(0.4, 0.4), 0.3, sides, 0.0).unwrap();
+        let surfaces = Surfaces::new(&[Solid::inside(outline).unwrap()]);
+        let base = |sample: u32| {
+            let body = Pose {
+                position: Point2::new(0.0, 0.2677),
+                heading: 115_f64.to_radians() - FRAC_PI_2 * f64::from(sample) * PERIOD,
+            };
+            Pose { position: body.point_to_world(whisker.base_body), heading: body.heading + whisker.direction_body }
+        };
+        let mut chain = QuasiStaticWhisker::new(whisker, 0.0, base(0));
+        for sample in 1..60 {
+            let followed = chain.follow(base(sample), PERIOD, &surfaces, 1e-3);
+            assert_eq!((followed, chain.unsettled_samples), (Ok(()), 0), "{sides} sides, sample {sample}");
+        }
+        assert!(chain.force != Vector2::zeros());
     }
 }
