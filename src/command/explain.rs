@@ -40,12 +40,13 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
     let scene = load::scenario_in(&source, &mut files)?.value;
     let policy = load::policy_for(arguments.policy.as_deref(), &scene, &source, &mut files)?;
     let program = policy.value.artifact.program;
+    let refused = |cause| Failure::Execute { scenario: arguments.scenario.clone(), cause };
     // A whisker that the rig lacks must not count as read.
     let fitted = scene
         .rig
         .fitted(&program.whiskers, &program.optional)
         .map_err(BindError::from)
-        .map_err(|cause| Failure::Execute { scenario: arguments.scenario.clone(), cause: cause.into() })?;
+        .map_err(|cause| refused(cause.into()))?;
     let read: Vec<_> = fitted.into_iter().flatten().map(|index| scene.rig.whiskers[index].name.clone()).collect();
     let world = arguments.world.of(&scene);
     // The rig that is simulated.
@@ -53,7 +54,7 @@ pub(super) fn explain(arguments: &ExplainArguments) -> Result<Exit, Failure> {
         Some(array) => (array.rig.clone(), array.physics(&scene.physics)),
         None => (scene.rig.clone(), scene.physics.clone()),
     };
-    let pruning = pruning(&scene, &rig, &physics, &read, world);
+    let pruning = pruning(&scene, &rig, &physics, &read, world).map_err(refused)?;
     if arguments.json {
         let mut provenance = provenance();
         provenance.add_scene(&scene.name);

@@ -34,6 +34,7 @@ use vibrissa_runtime::machine::{ArtifactError, SetError};
 use vibrissa_runtime::rig::UnknownWhisker;
 use vibrissa_text::file::OutputError;
 use vibrissa_world::mismatch::MismatchError;
+use vibrissa_world::solid::PartsError;
 
 use super::exit::Exit;
 use super::output;
@@ -140,6 +141,8 @@ pub(super) enum Failure {
     NoHeldOut,
     #[error("these are too few runs for one generation of the search; give at least --runs {needed}, or fewer scenes")]
     FewRuns { needed: usize },
+    #[error("{}: {cause}", scenario.display())]
+    Parts { scenario: PathBuf, cause: PartsError },
     #[error("{}: --mismatch: {cause}", scenario.display())]
     Mismatch { scenario: PathBuf, cause: MismatchError },
     #[error(transparent)]

@@ -10,7 +10,7 @@ use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Rig, Shaft};
 use vibrissa_world::geometry::{Point2, Pose, Vector2};
 use vibrissa_world::physics::{Physics, ShaftModel};
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::Part;
 use vibrissa_world::world::Fault;
 
 use super::link::{Link, LinkEnds};
@@ -72,12 +72,12 @@ impl Engine {
     pub(super) fn new(
         rig: &Rig,
         physics: &Physics,
-        solids: &[Solid],
+        parts: &[Part],
         start: Pose,
         scope: Scope,
     ) -> Result<Self, MujocoError> {
         let refused = |error: &dyn std::fmt::Display| MujocoError::Model(error.to_string());
-        let xml = mjcf_within(rig, physics, solids, start, &scope);
+        let xml = mjcf_within(rig, physics, parts, start, &scope);
         let model = Box::new(MjModel::from_xml_string(&xml).map_err(|error| refused(&error))?);
         let geom = |name: &str| {
             let id = model.name_to_id(MjtObjBase::mjOBJ_GEOM, name);
@@ -85,7 +85,7 @@ impl Engine {
         };
         let geom_id = |name: &str| i32::try_from(geom(name)?).map_err(|error| refused(&error));
         let platform_geom = geom_id("platform/body")?;
-        let part_geoms = part_names(solids, &scope).map(|name| geom_id(&name)).collect::<Result<_, _>>()?;
+        let part_geoms = part_names(parts, &scope).map(|name| geom_id(&name)).collect::<Result<_, _>>()?;
         let mut joints = vec![None; rig.whiskers.len()];
         let mut first_links = joints.iter().map(|_| None).collect::<Vec<_>>();
         let shafts = physics.shafts;
@@ -353,6 +353,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
     use vibrissa_world::geometry::{circle, polygon};
+    use vibrissa_world::solid::{Solid, convex_parts};
 
     /// The geoms and the signatures of the pairs that the engine tests.
     fn pairs(engine: &Engine) -> Vec<(i32, i32, i32)> {
@@ -366,10 +367,11 @@ mod tests {
         let corners = [(0.06, 0.3), (0.3, 0.3), (0.3, 0.6), (0.06, 0.6), (0.1, 0.45)].map(|(x, y)| Point2::new(x, y));
         let outlines = [circle(Point2::new(0.3, 0.15), 0.1), polygon(&corners)];
         let solids = outlines.map(|outline| Solid::inside(outline.unwrap()).unwrap());
+        let all_parts = convex_parts(&solids).unwrap();
         let rig = Rig::default();
-        let scope = Scope::whole(&rig, &solids).with_capacity(1000);
+        let scope = Scope::whole(&rig, &all_parts).with_capacity(1000);
         let parts = scope.part_count();
-        let mut engine = Engine::new(&rig, &Physics::default(), &solids, Pose::default(), scope).unwrap();
+        let mut engine = Engine::new(&rig, &Physics::default(), &all_parts, Pose::default(), scope).unwrap();
         let mut compiled = pairs(&engine);
         let links = rig.whiskers.iter().enumerate();
         let links =

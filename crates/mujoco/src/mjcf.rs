@@ -21,7 +21,7 @@ use vibrissa_world::physics::{Physics, ShaftModel, Solver, link_inertia};
 
 use super::contacts::{Contacts, friction_stiffness};
 use super::prune::Scope;
-use vibrissa_world::solid::{Part, Solid};
+use vibrissa_world::solid::{Part, PartsError, Solid, convex_parts};
 
 /// Half of the height (m) of the platform, and of objects in a planar simulation. There, any height is possible.
 const HALF_HEIGHT: f64 = 0.01;
@@ -52,34 +52,36 @@ const YOUNG_OVER_SHEAR: f64 = 2.6;
 ///   has no joint `w.0`, but an instance `w` of the plugin. A spatial chain also has joints `w/up`, `w.0/up`, `w.2/up`, …
 /// - the geom `object`, or `object/0`, `object/1`, … if there are several convex parts
 /// - the keyframe `start`
-#[must_use]
-pub fn mjcf(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> String {
-    mjcf_within(&rig.vibrating(), physics, solids, start, &Scope::whole(rig, solids))
+///
+/// # Errors
+/// [`PartsError`] if a solid is too large for MuJoCo.
+pub fn mjcf(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> Result<String, PartsError> {
+    let parts = convex_parts(solids)?;
+    Ok(mjcf_within(&rig.vibrating(), physics, &parts, start, &Scope::whole(rig, &parts)))
 }
 
-/// Writes the part of the model that is in `scope`. A rigid whisker is one body without joints and geoms. The other
+/// Writes what is in `scope` of the model with all these `parts` of solids. A rigid whisker is one body without joints and geoms. The other
 /// names are the same.
 #[must_use]
-pub(crate) fn mjcf_within(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, scope: &Scope) -> String {
-    let parts = named_parts(solids, scope);
+pub(crate) fn mjcf_within(rig: &Rig, physics: &Physics, parts: &[Part], start: Pose, scope: &Scope) -> String {
+    let parts = named_parts(parts, scope);
     let mut xml = String::new();
     // Writing to a string cannot fail.
     let _ = write_model(&mut xml, rig, physics, &parts, start, scope);
     xml
 }
 
-/// The parts of solids in the scope, ascending, with the names of their geoms.
-pub(super) fn named_parts<'s>(solids: &'s [Solid], scope: &Scope) -> Vec<(String, &'s Part)> {
-    let all = solids.iter().flat_map(Solid::parts).count();
-    let name = |index: usize| if all == 1 { "object".to_owned() } else { format!("object/{index}") };
-    let parts = solids.iter().flat_map(Solid::parts).enumerate().filter(|(index, _)| scope.has_part(*index));
+/// Those of all parts that are in the scope, ascending, with the names of their geoms.
+pub(super) fn named_parts<'p>(parts: &'p [Part], scope: &Scope) -> Vec<(String, &'p Part)> {
+    let name = |index: usize| if parts.len() == 1 { "object".to_owned() } else { format!("object/{index}") };
+    let parts = parts.iter().enumerate().filter(|(index, _)| scope.has_part(*index));
     parts.map(|(index, part)| (name(index), part)).collect()
 }
 
 /// The names of the geoms of the parts in `scope`, ascending by the parts' indices.
 #[cfg(feature = "sim")]
-pub(crate) fn part_names(solids: &[Solid], scope: &Scope) -> impl Iterator<Item = String> {
-    named_parts(solids, scope).into_iter().map(|(name, _)| name)
+pub(crate) fn part_names(parts: &[Part], scope: &Scope) -> impl Iterator<Item = String> {
+    named_parts(parts, scope).into_iter().map(|(name, _)| name)
 }
 
 fn write_model(

@@ -5,7 +5,7 @@ use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::signal::Command;
 use vibrissa_world::geometry::{Point2, Pose};
 use vibrissa_world::physics::Physics;
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::{PartsError, Solid};
 
 use super::broad_phase::BroadPhase;
 use super::engine::Engine;
@@ -24,7 +24,6 @@ pub(super) struct ModelSelector {
     /// selected.
     capacity: Option<usize>,
     reach: Reach,
-    solids: Vec<Solid>,
     physics: Physics,
     /// The centre (m, world frame) of the window for which the model contains all parts in reach.
     window: Option<Point2>,
@@ -34,21 +33,29 @@ pub(super) struct ModelSelector {
 }
 
 impl ModelSelector {
-    pub(super) fn new(rig: &Rig, physics: &Physics, solids: &[Solid], capacity: Option<usize>) -> Self {
-        Self {
+    /// The selection among `solids`.
+    ///
+    /// # Errors
+    /// [`PartsError`] if a solid is too large for MuJoCo.
+    pub(super) fn new(
+        rig: &Rig,
+        physics: &Physics,
+        solids: &[Solid],
+        capacity: Option<usize>,
+    ) -> Result<Self, PartsError> {
+        Ok(Self {
             capacity,
-            reach: Reach::new(rig, solids),
-            solids: solids.to_vec(),
+            reach: Reach::new(rig, solids)?,
             physics: physics.clone(),
             window: None,
             others: Vec::new(),
             broad_phase: BroadPhase::default(),
-        }
+        })
     }
 
     /// Builds the model for the start.
     pub(super) fn initial_model(&mut self, rig: &Rig, start: Pose) -> Result<Engine, MujocoError> {
-        let mut scope = Scope::whole(rig, &self.solids);
+        let mut scope = Scope::whole(rig, self.reach.parts());
         for (index, whisker) in rig.whiskers.iter().enumerate() {
             let is_rigid = self.physics.has_rigid_whiskers()
                 && may_be_rigid(whisker, self.reach.clearance(whisker, &start), 0.0, false);
@@ -61,7 +68,7 @@ impl ModelSelector {
                 self.window = Some(start.position);
             }
         }
-        Engine::new(rig, &self.physics, &self.solids, start, scope)
+        Engine::new(rig, &self.physics, self.reach.parts(), start, scope)
     }
 
     /// Replaces the model, if necessary, before the next tick under `command`.
@@ -117,7 +124,7 @@ impl ModelSelector {
         let known = self.others.iter().position(|other| other.scope == scope);
         let mut next = match known {
             Some(index) => self.others.swap_remove(index),
-            None => Engine::new(rig, &self.physics, &self.solids, engine.body(), scope)?,
+            None => Engine::new(rig, &self.physics, self.reach.parts(), engine.body(), scope)?,
         };
         next.resume(engine);
         let last = std::mem::replace(engine, next);

@@ -4,7 +4,7 @@ use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_runtime::signal::{Command, Sample};
 use vibrissa_world::geometry::{Point2, Pose, unit};
 use vibrissa_world::physics::{MIN_INERTIA, Physics, ShaftModel, light_shaft};
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::{PartsError, Solid};
 use vibrissa_world::world::{Fault, OutOfPlane, Posture, SNAP_OFF_SPEED, World};
 use vibrissa_world::world::{Sensors, raised, whole};
 
@@ -36,6 +36,12 @@ pub enum MujocoError {
         /// The share of the whisker's moment of inertia about its base that is added.
         share: f64,
     },
+    /// A solid is too large to be simulated.
+    #[error(transparent)]
+    Parts(#[from] PartsError),
+    /// A solid is too large to be drawn, whatever simulates it.
+    #[error("MuJoCo cannot draw the scene: {0}")]
+    Undrawable(PartsError),
     /// The rig has cables, and their plugin is not available.
     #[error(transparent)]
     Plugin(#[from] PluginError),
@@ -71,7 +77,7 @@ impl MujocoWorld {
     /// model is complete: it contains all parts and links at all times.
     ///
     /// # Errors
-    /// [`MujocoError`] if MuJoCo rejects the model.
+    /// [`MujocoError`] if a solid is too large for MuJoCo, or if MuJoCo rejects the model.
     pub fn new(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
         Self::with(rig, physics, solids, start, seed, None)
     }
@@ -79,7 +85,7 @@ impl MujocoWorld {
     /// Builds a pruned simulation. Its model contains only parts and links that can touch.
     ///
     /// # Errors
-    /// [`MujocoError`] if MuJoCo rejects the model.
+    /// [`MujocoError`] if a solid is too large for MuJoCo, or if MuJoCo rejects the model.
     pub fn pruned(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose, seed: u64) -> Result<Self, MujocoError> {
         Self::with(rig, physics, solids, start, seed, Some(INITIAL_CAPACITY))
     }
@@ -102,7 +108,7 @@ impl MujocoWorld {
         if physics.shafts == ShaftModel::Cable {
             load_cable_plugin()?;
         }
-        let mut model_selector = ModelSelector::new(rig, physics, solids, capacity);
+        let mut model_selector = ModelSelector::new(rig, physics, solids, capacity)?;
         let engine = model_selector.initial_model(rig, start)?;
         let sensing = &rig.sensing;
         let samples_per_tick = whole(sensing.sample_rate / sensing.control_rate);

@@ -4,6 +4,7 @@ use crate::snapshots::snapshots;
 use proptest::prelude::*;
 use vibrissa::diagnostic::{Colour, Diagnostic, FAULT_LIMIT, Severity, Source, terminal};
 use vibrissa::scenario;
+use vibrissa::solid::{PartsError, PartsFault, convex_parts};
 
 const DISK: &str = include_str!("../../../scenarios/disk.yaml");
 
@@ -100,16 +101,31 @@ fn with_polygon(vertices: impl Iterator<Item = String>) -> Source {
     Source::new("scenario.yaml", DISK.replace(disk, &format!("  - polygon:\n      vertices:\n{lines}")))
 }
 
-#[test]
-fn a_polygon_of_too_many_corners_is_answered_as_reviewed() {
+/// The disk's scenario with a regular polygon of more corners than MuJoCo takes.
+fn with_many_corners() -> Source {
     let sides = 2100;
-    let source = with_polygon((0..sides).map(|corner| {
+    with_polygon((0..sides).map(|corner| {
         let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(sides)).sin_cos();
         format!("[{} m, {} m]", 0.4 + 0.3 * cos, 0.4 + 0.3 * sin)
-    }));
+    }))
+}
+
+#[test]
+fn a_polygon_of_too_many_corners_is_answered_as_reviewed_if_the_simulator_is_mujoco() {
+    let source = with_many_corners();
+    let source = Source::new(&*source.name, format!("{}world: mujoco\n", source.text));
     let faults = scenario::read(&source).unwrap_err();
     snapshots("scenarios")
         .bind(|| insta::assert_snapshot!("too_many_corners", terminal(&source, &faults, Colour::Plain)));
+}
+
+#[test]
+fn a_polygon_of_too_many_corners_is_a_scenario_whose_convex_parts_are_refused_with_its_line() {
+    let scene = scenario::read(&with_many_corners()).unwrap();
+    let PartsError { solid, place, fault } = convex_parts(&scene.solids).unwrap_err();
+    assert_eq!((solid, fault), (0, PartsFault::Corners { count: 2100, limit: 2048 }));
+    let line = DISK.lines().position(|line| line.contains("circle:")).unwrap() + 1;
+    assert_eq!(place.map(|place| place.line), Some(line));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use proptest::sample::Index;
 use vibrissa::family::{Draw, FAMILIES};
 use vibrissa::geometry::{Point2, Pose, Segment, Vector2, unit};
 use vibrissa::mujoco::Reach;
-use vibrissa::solid::{Part, Solid};
+use vibrissa::solid::{Part, Solid, convex_parts};
 
 /// How many links the whiskers have.
 const LINKS: usize = 16;
@@ -33,7 +33,7 @@ fn distance(part: &Part, place: Point2) -> f64 {
 
 /// The parts, by their indices, that any of these places is as near to as `reach` (m).
 fn near(solids: &[Solid], places: &[Point2], reach: f64) -> Vec<usize> {
-    let parts = solids.iter().flat_map(Solid::parts).enumerate();
+    let parts = convex_parts(solids).unwrap().into_iter().enumerate();
     let is_near = |part: &Part| places.iter().any(|place| distance(part, *place) <= reach);
     parts.filter(|(_, part)| is_near(part)).map(|(index, _)| index).collect()
 }
@@ -65,7 +65,7 @@ proptest! {
         let Draw { scene, .. } = draw;
         let mut whisker = scene.rig.whiskers[0].clone();
         whisker.shaft.links = LINKS;
-        let (reach, length) = (Reach::new(&scene.rig, &scene.solids), whisker.shaft.link_length());
+        let (reach, length) = (Reach::new(&scene.rig, &scene.solids).unwrap(), whisker.shaft.link_length());
         for (turns, slack) in bends {
             let Pose { position: mut start, heading: mut direction } = base;
             let links: Vec<_> = turns.iter().map(|turn| {
@@ -94,7 +94,7 @@ proptest! {
             right + across * (left - right)
         };
         let places: Vec<_> = shares().flat_map(|across| shares().map(move |ahead| place(across, ahead))).collect();
-        let found = Reach::new(&scene.rig, &scene.solids).near_body(&scene.rig.platform, &body, slack);
+        let found = Reach::new(&scene.rig, &scene.solids).unwrap().near_body(&scene.rig.platform, &body, slack);
         for part in near(&scene.solids, &places, slack) {
             prop_assert!(found.contains(&part), "{}: part {part}", scene.name);
         }

@@ -175,7 +175,7 @@ fn the_zigzag_tunnel_has_its_walls_on_the_mean_normals() {
     let middle = nalgebra::center(&vertices[2], &vertices[3]);
     let (to_face, solid) = at(&scene, middle);
     assert!((to_face - (0.1125 * 15_f64.to_radians().cos() - 0.01)).abs() < 1e-9 && !solid);
-    assert_eq!(scene.solids.iter().map(|solid| solid.parts().len()).collect::<Vec<_>>(), [6, 6]);
+    assert_eq!(scene.solids.iter().map(|solid| solid.parts().unwrap().len()).collect::<Vec<_>>(), [6, 6]);
     leads_to_the_end(&scene, vertices.last().copied());
 }
 

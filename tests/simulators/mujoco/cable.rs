@@ -97,7 +97,7 @@ fn a_clamped_cable_is_off_the_elastica_by_half_as_much_with_twice_the_links() {
 fn a_cable_that_was_rigid_in_the_air_feels_the_same_as_one_that_never_was() {
     let (rig, physics) = rig(12);
     let right = &rig.whiskers[0];
-    let reach = Reach::new(&rig, &disk());
+    let reach = Reach::new(&rig, &disk()).unwrap();
     let way = SPEED * f64::from(BACK) / rig.sensing.control_rate;
     let start = Pose { position: START.position - way * unit(FRAC_PI_2), ..START };
     let rigid_at = |body: &Pose| may_be_rigid(right, reach.clearance(right, body), 0.0, false);

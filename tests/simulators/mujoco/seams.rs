@@ -103,7 +103,7 @@ fn twenty_parts_in_a_line_feel_like_one() {
     let along = |s: f64| Pose { position: Point2::new(ASIDE - aside(s), s), heading: FRAC_PI_2 };
     let [one, many] = [1, 20].map(|runs| {
         let (strip, solid) = wall_on_the_right(&straight_line(runs));
-        assert_eq!(solid.parts().len(), runs);
+        assert_eq!(solid.parts().unwrap().len(), runs);
         // A second solid, far off: both are simulated by the same means.
         let far = vibrissa::geometry::circle(Point2::new(50.0, 0.0), 0.1).unwrap();
         let samples = drag(&[solid, Solid::inside(far).unwrap()], 0.9, along);
@@ -149,7 +149,7 @@ fn the_parts_of_a_hollow_bend_and_of_a_round_one_feel_like_the_exact_arc() {
     // Inside of a ring counter-clockwise, and outside of two clockwise.
     for (radius, way, least) in [(0.4, 1.0, 200), (0.3, -1.0, 15), (0.25, -1.0, 15)] {
         let (strip, solid, pose) = round_wall(radius, way);
-        assert!(solid.parts().len() >= least, "{} parts", solid.parts().len());
+        assert!(solid.parts().unwrap().len() >= least, "{} parts", solid.parts().unwrap().len());
         let samples = drag(&[solid], 0.9, pose);
         let touching = settled(&samples).iter().all(|sample| sample.whiskers[0].base_angle.abs() > 5e-5);
         assert!(touching, "the whisker lost the wall");

@@ -3,13 +3,13 @@
 use std::error::Error;
 
 #[cfg(feature = "sim")]
-use vibrissa_mujoco::MujocoWorld;
+use vibrissa_mujoco::{MujocoError, MujocoWorld};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_world::geometry::Pose;
 use vibrissa_world::physics::Physics;
 use vibrissa_world::quasi_static::{self, QuasiStaticWorld};
 use vibrissa_world::scene::WorldKind;
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::{PartsError, Solid};
 use vibrissa_world::world::{Decision, World};
 
 /// The error of a simulator that is not there or that refuses a scene.
@@ -20,6 +20,9 @@ pub enum SimulatorError {
         "this build has no simulator `{0}`; build the program with the feature `sim`, or use the simulator `quasistatic`"
     )]
     Missing(WorldKind),
+    /// A solid is too large for MuJoCo.
+    #[error("{0}, or use the simulator `quasistatic`")]
+    TooLarge(PartsError),
     /// The simulator refuses the scene, or its library cannot be loaded.
     #[error(transparent)]
     Refused(Box<dyn Error + Send + Sync>),
@@ -51,7 +54,7 @@ pub(super) struct Simulator {
     /// The version of its library. `None` for a simulator that is a part of this program.
     pub(super) version: fn() -> Option<&'static str>,
     /// What it omits.
-    pub(super) decisions: fn(&Surroundings<'_>) -> Vec<Decision>,
+    pub(super) decisions: fn(&Surroundings<'_>) -> Result<Vec<Decision>, SimulatorError>,
 }
 
 impl Simulator {
@@ -71,14 +74,18 @@ static QUASI_STATIC: Simulator = Simulator {
     },
     check: || Ok(()),
     version: || None,
-    decisions: |_| quasi_static::decisions(),
+    decisions: |_| Ok(quasi_static::decisions()),
 };
 
 #[cfg(feature = "sim")]
 static MUJOCO: Simulator = Simulator {
     build: |&Surroundings { rig, physics, solids, start }, prune, seed| {
         let build = if prune { MujocoWorld::pruned } else { MujocoWorld::new };
-        Ok(Box::new(build(rig, physics, solids, start, seed).map_err(SimulatorError::refused)?))
+        let world = build(rig, physics, solids, start, seed).map_err(|cause| match cause {
+            MujocoError::Parts(cause) => SimulatorError::TooLarge(cause),
+            cause => SimulatorError::refused(cause),
+        })?;
+        Ok(Box::new(world))
     },
     check: || vibrissa_mujoco::engine_version().map(|_| ()).map_err(SimulatorError::refused),
     version: || Some(vibrissa_mujoco::engine_version().unwrap_or("none")),
@@ -94,6 +101,8 @@ static MUJOCO: Simulator = Simulator {
 };
 
 /// What MuJoCo omits follows from the scene alone, without its library.
-fn mujoco_decisions(&Surroundings { rig, physics, solids, start }: &Surroundings<'_>) -> Vec<Decision> {
-    vibrissa_mujoco::decisions(rig, physics, solids, start)
+fn mujoco_decisions(
+    &Surroundings { rig, physics, solids, start }: &Surroundings<'_>,
+) -> Result<Vec<Decision>, SimulatorError> {
+    vibrissa_mujoco::decisions(rig, physics, solids, start).map_err(SimulatorError::TooLarge)
 }

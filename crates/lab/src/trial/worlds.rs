@@ -7,7 +7,7 @@ use vibrissa_runtime::rig::Rig;
 use vibrissa_world::geometry::{Piece, Point2};
 use vibrissa_world::physics::Physics;
 use vibrissa_world::scene::{Scene, WorldKind, WorldSetup};
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::{PartsError, Solid};
 use vibrissa_world::world::{Disturbed, Pruning, World};
 
 use super::simulators::{Simulator, SimulatorError, Surroundings};
@@ -70,10 +70,18 @@ pub fn check_world(kind: WorldKind) -> Result<(), ExecuteError> {
 }
 
 /// What a run of a rig in a scene omits, under a policy that binds the whiskers with the names `bound`.
-#[must_use]
-pub fn pruning(scene: &Scene, rig: &Rig, physics: &Physics, bound: &[String], kind: WorldKind) -> Pruning {
+///
+/// # Errors
+/// [`ExecuteError`] if the simulator refuses the scene.
+pub fn pruning(
+    scene: &Scene,
+    rig: &Rig,
+    physics: &Physics,
+    bound: &[String],
+    kind: WorldKind,
+) -> Result<Pruning, ExecuteError> {
     let surroundings = Surroundings { rig, physics, solids: &scene.solids, start: scene.start };
-    Pruning::new((Simulator::of(kind).decisions)(&surroundings), rig, bound)
+    Ok(Pruning::new((Simulator::of(kind).decisions)(&surroundings)?, rig, bound))
 }
 
 /// The versions of this program and of its simulator.
@@ -95,13 +103,15 @@ fn mujoco_version() -> &'static str {
 }
 
 /// The MuJoCo model of the true array of a scene.
-#[must_use]
-pub fn model(scene: &Scene) -> String {
+///
+/// # Errors
+/// [`PartsError`] if a solid is too large for MuJoCo.
+pub fn model(scene: &Scene) -> Result<String, PartsError> {
     model_among(scene, &scene.solids)
 }
 
 /// The MuJoCo model of the true array of a scene among these solids.
-fn model_among(scene: &Scene, solids: &[Solid]) -> String {
+fn model_among(scene: &Scene, solids: &[Solid]) -> Result<String, PartsError> {
     let Scene { rig, physics, start, .. } = scene;
     match scene.true_array() {
         Some(array) => mjcf(&array.rig, &array.physics(physics), solids, *start),
@@ -119,13 +129,15 @@ pub(super) fn engine_hash(scene: &Scene, world: WorldSetup) -> [u8; 32] {
     hash.update([0]);
     hash.update(engine);
     hash.update([0]);
+    // A scene that MuJoCo refuses is identified by the reason.
+    let text = |model: Result<String, PartsError>| model.unwrap_or_else(|refused| refused.to_string());
     // The model has the mechanics of the rig, the solids and the start. The values of the scenario that are not in it are
     // in the hash of the scenario, and their defaults change only with the version.
     match world.kind {
-        WorldKind::Mujoco => hash.update(model(scene)),
+        WorldKind::Mujoco => hash.update(text(model(scene))),
         // It simulates the surfaces, not the convex parts of the model.
         WorldKind::QuasiStatic => {
-            hash.update(model_among(scene, &[]));
+            hash.update(text(model_among(scene, &[])));
             for piece in scene.solids.iter().flat_map(|solid| solid.surface().pieces()) {
                 let [Point2 { coords: a }, Point2 { coords: b }] = [piece.start(), piece.end()];
                 let shape = if let Piece::Arc(arc) = piece { [arc.radius, arc.sweep] } else { [0.0; 2] };

@@ -3,17 +3,19 @@
 use vibrissa_runtime::rig::{Rig, Whisker};
 use vibrissa_world::geometry::{Pose, unit};
 use vibrissa_world::physics::Physics;
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::{PartsError, Solid};
 use vibrissa_world::world::{Decision, Verdict};
 
 use super::reach::{Reach, may_be_rigid};
 
 /// What the simulator omits for a rig at `start` among `solids`. Counts refer to the start.
-#[must_use]
-pub fn decisions(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> Vec<Decision> {
+///
+/// # Errors
+/// [`PartsError`] if a solid is too large for MuJoCo.
+pub fn decisions(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) -> Result<Vec<Decision>, PartsError> {
     let mut decisions = Vec::new();
-    let reach = Reach::new(rig, solids);
-    let parts = solids.iter().flat_map(Solid::parts).count();
+    let reach = Reach::new(rig, solids)?;
+    let parts = reach.parts().len();
     let near = if reach.is_windowed() { reach.parts_about(start.position).len() } else { parts };
     if reach.is_windowed() {
         decisions.push(Decision {
@@ -72,7 +74,7 @@ pub fn decisions(rig: &Rig, physics: &Physics, solids: &[Solid], start: Pose) ->
                 .to_owned(),
         });
     }
-    decisions
+    Ok(decisions)
 }
 
 /// The number of pairs of links and parts that are near each other while a whisker is undeflected.

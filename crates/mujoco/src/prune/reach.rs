@@ -6,7 +6,7 @@ use rstar::{AABB, RTree};
 use vibrissa_runtime::rig::{Platform, Rig, Whisker};
 use vibrissa_runtime::signal::Command;
 use vibrissa_world::geometry::{ContourSet, Point2, Pose, TreePoint, Vector2, unit};
-use vibrissa_world::solid::{Part, Solid};
+use vibrissa_world::solid::{Part, PartsError, Solid, convex_parts};
 
 /// With more parts than this, a model contains only those near the platform.
 const MANY_PARTS: usize = 12;
@@ -35,19 +35,26 @@ pub struct Reach {
 
 impl Reach {
     /// Creates the search structures for `rig` and `solids`.
-    #[must_use]
-    pub fn new(rig: &Rig, solids: &[Solid]) -> Self {
+    ///
+    /// # Errors
+    /// [`PartsError`] if a solid is too large for MuJoCo.
+    pub fn new(rig: &Rig, solids: &[Solid]) -> Result<Self, PartsError> {
         let boxed = |(index, part): (usize, &Part)| {
             let (low, high) = part.bounds();
             GeomWithData::new(Rectangle::from_corners((low.x, low.y), (high.x, high.y)), index)
         };
-        let parts: Vec<Part> = solids.iter().flat_map(Solid::parts).cloned().collect();
+        let parts = convex_parts(solids)?;
         let boxes = RTree::bulk_load(parts.iter().enumerate().map(boxed).collect());
         let corners = rig.platform.outline_body().map(|corner| corner.coords.norm());
         let tips = rig.whiskers.iter().map(|whisker| whisker.base_body.coords.norm() + whisker.shaft.length);
         let extent = corners.into_iter().chain(tips).fold(0.0, f64::max) + TOLERANCE;
         let surfaces = ContourSet::new(solids.iter().map(|solid| solid.surface().clone()));
-        Self { surfaces, boxes, parts, extent }
+        Ok(Self { surfaces, boxes, parts, extent })
+    }
+
+    /// The convex parts of all solids, in order.
+    pub(crate) fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     /// True if a model contains only the parts near the platform.

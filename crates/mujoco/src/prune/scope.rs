@@ -1,7 +1,7 @@
 //! The content of a model.
 
 use vibrissa_runtime::rig::{Rig, Whisker};
-use vibrissa_world::solid::Solid;
+use vibrissa_world::solid::Part;
 
 /// The content of a model: its convex parts, its flexible whiskers, and its capacity for pairs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,9 +17,8 @@ pub struct Scope {
 impl Scope {
     /// The complete scene.
     #[must_use]
-    pub fn whole(rig: &Rig, solids: &[Solid]) -> Self {
-        let count = solids.iter().flat_map(Solid::parts).count();
-        Self { parts: (0..count).collect(), rigid: vec![false; rig.whiskers.len()], capacity: None }
+    pub fn whole(rig: &Rig, parts: &[Part]) -> Self {
+        Self { parts: (0..parts.len()).collect(), rigid: vec![false; rig.whiskers.len()], capacity: None }
     }
 
     /// Replaces the parts, given by their indices, ascending.

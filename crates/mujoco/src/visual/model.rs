@@ -11,6 +11,7 @@ use vibrissa_runtime::math;
 use vibrissa_world::geometry::Pose;
 use vibrissa_world::physics::Physics;
 use vibrissa_world::scene::Scene;
+use vibrissa_world::solid::{Part, convex_parts};
 
 use super::camera::Camera;
 
@@ -34,12 +35,13 @@ impl VisualModel {
     /// Builds the model for pictures of at most this width and height (px).
     ///
     /// # Errors
-    /// [`MujocoError`] if MuJoCo's library cannot be used, or if it rejects the model.
+    /// [`MujocoError`] if MuJoCo's library cannot be used, if a solid is too large for it, or if it rejects the model.
     pub(super) fn new(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Result<Self, MujocoError> {
         super::super::messages::prepare_engine()?;
         let refused = |error: &dyn fmt::Display| MujocoError::Model(error.to_string());
         let mut xml = String::new();
-        write_model(&mut xml, scene, camera, size).map_err(|error| refused(&error))?;
+        let parts = convex_parts(&scene.solids).map_err(MujocoError::Undrawable)?;
+        write_model(&mut xml, scene, &parts, camera, size).map_err(|error| refused(&error))?;
         let model = MjModel::from_xml_string(&xml).map_err(|error| refused(&error))?;
         let mut visual = Self { data: MjData::try_new(Box::new(model)).map_err(|error| refused(&error))? };
         visual.place(&scene.start);
@@ -63,9 +65,15 @@ impl VisualModel {
     }
 }
 
-fn write_model(xml: &mut String, scene: &Scene, camera: &Camera, [width, height]: [u32; 2]) -> fmt::Result {
+fn write_model(
+    xml: &mut String,
+    scene: &Scene,
+    parts: &[Part],
+    camera: &Camera,
+    [width, height]: [u32; 2],
+) -> fmt::Result {
     let half_height = half_height(&scene.physics);
-    let parts = named_parts(&scene.solids, &Scope::whole(&scene.rig, &scene.solids));
+    let parts = named_parts(parts, &Scope::whole(&scene.rig, parts));
     let [elevation, azimuth] = Camera::angles_deg();
     // The window looks from 1.5 times the extent.
     let extent = camera.distance() / 1.5;

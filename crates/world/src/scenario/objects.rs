@@ -4,18 +4,12 @@ use super::fault;
 use super::object::Object;
 use super::reader::Reader;
 use crate::geometry::{Contour, ContourSet, Pose, Side, Tunnel, TunnelAxis, UnionError, unite};
-use crate::scene::Truth;
-use crate::scene::{Overlap, overlap};
-use crate::solid::{Solid, SolidError};
+use crate::scene::{Overlap, Truth, WorldKind, overlap};
+use crate::solid::{PartsError, Solid, SolidError, convex_parts};
 use vibrissa_runtime::rig::Rig;
 use vibrissa_runtime::units::{Dimension, format_si};
 use vibrissa_text::diagnostic::{Diagnostic, Span};
 use vibrissa_yaml::Placed;
-
-/// The largest total number of parts of all solids. MuJoCo needs some 70 µs to build each.
-const MAX_PARTS: usize = 8192;
-/// The largest sum of squared corner counts of all parts, equal to that of eight of the largest prisms.
-const MAX_CORNERS: usize = 8 * 2048 * 2048;
 
 /// The solids of a scenario with the spans of their objects, and the reference. No solid overlaps another.
 pub(super) struct Objects {
@@ -34,7 +28,6 @@ impl Objects {
     pub(super) fn of(reader: &mut Reader<'_>, objects: Vec<Placed<Object>>) -> Option<Self> {
         let mut all = Self { solids: Vec::new(), reference: Vec::new(), axes: Vec::new() };
         let mut separate = Vec::new();
-        let mut work = Work::default();
         for Placed { value, span } in united(reader, objects)? {
             let solids = match value {
                 Object::Plain { outline, texture } => {
@@ -59,11 +52,11 @@ impl Objects {
             };
             for solid in solids {
                 let value = solid.map_err(|error| report(reader, &error, span)).ok()?;
-                work.add(reader, &value, span)?;
-                all.solids.push(Placed { value, span });
+                let place = reader.source().line_column(span.start);
+                all.solids.push(Placed { value: value.at(place), span });
             }
         }
-        all.check_separate(reader, &separate).then_some(all)
+        (all.check_separate(reader, &separate) && all.check_parts(reader)).then_some(all)
     }
 
     /// The exact geometry for scores. `None` without objects.
@@ -98,6 +91,21 @@ impl Objects {
         }
     }
 
+    /// Reports the first solid that MuJoCo cannot simulate, if the text states that simulator. Another one needs no convex
+    /// parts.
+    fn check_parts(&self, reader: &mut Reader<'_>) -> bool {
+        if !reader.is_mujoco {
+            return true;
+        }
+        let parts = convex_parts(self.solids.iter().map(|solid| &solid.value));
+        let Err(PartsError { solid, fault: found, .. }) = parts else { return true };
+        let span = self.solids[solid].span;
+        let code = if found.is_of_all() { fault::TOO_LARGE } else { fault::SHAPE };
+        let advice = format!("{}, or use the simulator `{}`", found.advice(), WorldKind::QuasiStatic.name());
+        reader.report(Diagnostic::error(code, found.message(), span, found.label()).hint(advice));
+        false
+    }
+
     /// Checks that none of these solids overlaps another one, and reports the first overlap. They are given by their
     /// indices, with a description.
     fn check_separate(&self, reader: &mut Reader<'_>, separate: &[(usize, &str)]) -> bool {
@@ -124,34 +132,6 @@ fn report_meeting(reader: &mut Reader<'_>, what: &str, span: Span, other: Span) 
     } else {
         "move them apart, or draw them as one outline with a texture: rough objects are not united with others"
     }));
-}
-
-/// The work for building all solids in MuJoCo.
-#[derive(Default)]
-struct Work {
-    parts: usize,
-    /// The sum of squared corner counts. The time for building a part is proportional to it.
-    corners: usize,
-}
-
-impl Work {
-    /// Adds a solid. Reports a total above the limit.
-    fn add(&mut self, reader: &mut Reader<'_>, solid: &Solid, place: Span) -> Option<()> {
-        self.parts += solid.parts().len();
-        self.corners += solid.parts().iter().map(|part| part.corners().pow(2)).sum::<usize>();
-        let (count, limit, what) = if self.parts > MAX_PARTS {
-            (self.parts, MAX_PARTS, "parts")
-        } else if self.corners > MAX_CORNERS {
-            (self.corners, MAX_CORNERS, "as the sum of the squared corner counts of all parts")
-        } else {
-            return Some(());
-        };
-        let label = format!("{count} {what} up to this object; the limit is {limit}");
-        let fault =
-            Diagnostic::error(fault::TOO_LARGE, "the objects together are too large to be simulated", place, label);
-        reader.report(fault.hint("leave out objects, or make them smaller; an arc becomes up to some hundred chords"));
-        None
-    }
 }
 
 /// Unites plain objects that touch. Reports a rough object that touches another one.
@@ -229,34 +209,11 @@ fn report(reader: &mut Reader<'_>, error: &SolidError, place: Span) {
             "the outline is open".to_owned(),
             "close it with `closed: true`",
         ),
-        SolidError::Corners { count, limit } => (
-            "the object has too many corners to be simulated",
-            format!("{count} corners; the limit is {limit}"),
-            "leave out vertices at which the outline is almost straight, or use arcs",
-        ),
-        SolidError::Parts { count, limit } => (
-            "the tunnel is too long to be simulated",
-            format!("{count} parts; the limit is {limit}"),
-            "make the tunnel shorter, or its bends wider",
-        ),
-        SolidError::Chords => (
-            "the object comes within micrometres of itself",
-            "two of its sides are too close to each other".to_owned(),
-            "move its sides apart",
-        ),
-        SolidError::Waves { count, limit } => (
-            "the rough surface has too many waves to be simulated",
-            format!("{count} parts; the limit is {limit}"),
-            "make the wavelength longer, or the object smaller",
-        ),
         SolidError::Texture(error) => (
             "the object cannot have this texture",
             error.to_string(),
             "use a smaller amplitude, or move sides of the object apart",
         ),
-        SolidError::Core(error) => {
-            ("the object cannot have this texture", error.to_string(), "use a slightly different amplitude")
-        }
         SolidError::Strip(error) => ("a wall of the tunnel meets itself", error.to_string(), "make the tunnel wider"),
     };
     reader.report(Diagnostic::error(fault::SHAPE, message, place, label).hint(hint));

@@ -5,7 +5,7 @@ use i_triangle::float::triangulatable::Triangulatable;
 use crate::geometry::{Contour, Point2};
 
 use super::part::{Part, corners};
-use super::solid::SolidError;
+use super::parts_fault::PartsFault;
 
 /// The largest distance (m) of a chord from its arc.
 const SAGITTA: f64 = 5e-6;
@@ -14,7 +14,7 @@ const AREA_TOLERANCE: f64 = 1e-9;
 
 /// Decomposes the interior of a closed contour into convex parts. A Delaunay triangulation is merged as long as the
 /// parts remain convex.
-pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, SolidError> {
+pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, PartsFault> {
     let corners = corners(contour, SAGITTA)?;
     let outline: Vec<[f64; 2]> = corners.iter().map(|corner| [corner.x, corner.y]).collect();
     let polygons = outline.as_slice().triangulate_as::<i64>().into_delaunay().to_convex_polygons();
@@ -24,7 +24,7 @@ pub(super) fn parts(contour: &Contour) -> Result<Vec<Part>, SolidError> {
     let lost = whole - parts.iter().map(|part| area(part)).sum::<f64>();
     // Chords can intersect although their arcs do not. The parts then do not cover the outline.
     if lost.abs() > AREA_TOLERANCE * whole {
-        return Err(SolidError::Chords);
+        return Err(PartsFault::Chords);
     }
     Ok(parts.into_iter().map(|outline| Part::Prism { outline }).collect())
 }

@@ -6,7 +6,7 @@ use vibrissa_runtime::math;
 
 use crate::geometry::{Contour, Piece, Point2, Vector2, perpendicular};
 
-use super::solid::SolidError;
+use super::parts_fault::PartsFault;
 
 /// The largest distance (m) of a prism's chord from its arc, if [`CHORDS_PER_TURN`] suffices.
 const SAGITTA: f64 = 1e-6;
@@ -38,8 +38,8 @@ impl Part {
     /// The interior of a convex contour.
     ///
     /// # Errors
-    /// [`SolidError::Corners`] if the contour has too many pieces.
-    pub(super) fn inside(contour: &Contour) -> Result<Self, SolidError> {
+    /// [`PartsFault::Corners`] if the contour has too many pieces.
+    pub(super) fn inside(contour: &Contour) -> Result<Self, PartsFault> {
         if let [Piece::Arc(arc)] = contour.pieces() {
             return Ok(Self::Cylinder { centre: arc.centre, radius: arc.radius });
         }
@@ -94,11 +94,11 @@ impl Part {
 /// [`CHORDS_PER_TURN`] suffices.
 ///
 /// # Errors
-/// [`SolidError::Corners`] if there are too many.
-pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, SolidError> {
+/// [`PartsFault::Corners`] if there are too many.
+pub(super) fn corners(contour: &Contour, sagitta: f64) -> Result<Vec<Point2>, PartsFault> {
     let count = contour.pieces().iter().map(|piece| chord_count(piece, sagitta)).sum();
     if count > MAX_CORNERS {
-        return Err(SolidError::Corners { count, limit: MAX_CORNERS });
+        return Err(PartsFault::Corners { count, limit: MAX_CORNERS });
     }
     Ok(contour.pieces().iter().flat_map(|piece| chords(piece, sagitta)).collect())
 }
@@ -152,6 +152,6 @@ mod tests {
         let polygon = |sides| regular_polygon(Point2::origin(), 0.3, sides, 0.0).unwrap();
         assert_eq!(prism(&polygon(MAX_CORNERS)).len(), MAX_CORNERS);
         let error = Part::inside(&polygon(MAX_CORNERS + 1)).unwrap_err();
-        assert_eq!(error, SolidError::Corners { count: MAX_CORNERS + 1, limit: MAX_CORNERS });
+        assert_eq!(error, PartsFault::Corners { count: MAX_CORNERS + 1, limit: MAX_CORNERS });
     }
 }

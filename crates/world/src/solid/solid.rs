@@ -1,19 +1,25 @@
 //! The solids of a scene.
 
-use crate::geometry::{Contour, OffsetError, Side, Strip, StripError, Texture, TextureError};
+use std::sync::{Arc, OnceLock};
 
+use vibrissa_text::diagnostic::Position;
+
+use crate::geometry::{Contour, Side, Strip, StripError, Texture, TextureError};
+
+use super::composition::Composition;
 use super::part::Part;
-use super::{decompose, rough, wall};
-
-/// The largest number of parts of a solid. MuJoCo needs some 70 µs to build each.
-const MAX_PARTS: usize = 4096;
+use super::parts_fault::PartsFault;
 
 /// A solid: its exact outline, its rough surface if it has a texture, and its convex parts for MuJoCo.
+///
+/// The parts are built when they are first asked for. Clones share them.
 #[derive(Debug, Clone)]
 pub struct Solid {
     outline: Contour,
     rough: Option<Contour>,
-    parts: Vec<Part>,
+    composition: Composition,
+    parts: Arc<OnceLock<Result<Vec<Part>, PartsFault>>>,
+    place: Option<Position>,
 }
 
 /// The reason why a contour does not define a solid.
@@ -22,44 +28,12 @@ pub enum SolidError {
     /// The contour is open and has no interior.
     #[error("an open contour has no interior; close it")]
     Open,
-    /// The contour has too many pieces.
-    #[error("a contour of {count} corners, arcs as chords, is too large to be simulated; use at most {limit}")]
-    Corners {
-        /// The number of corners of the prism.
-        count: usize,
-        /// The largest permitted number.
-        limit: usize,
-    },
-    /// Chords of arcs intersect, because the arcs are too close to each other.
-    #[error("the contour comes within micrometres of itself; move its sides apart")]
-    Chords,
-    /// A wall has too many parts.
-    #[error("a wall of {count} parts is too large to be simulated; use at most {limit}: make it shorter")]
-    Parts {
-        /// The number of parts.
-        count: usize,
-        /// The largest permitted number.
-        limit: usize,
-    },
-    /// A rough solid has too many parts.
-    #[error(
-        "a rough surface of {count} parts is too large to be simulated; use at most {limit}: make the waves longer"
-    )]
-    Waves {
-        /// The number of parts.
-        count: usize,
-        /// The largest permitted number.
-        limit: usize,
-    },
     /// A wall has no outline.
     #[error(transparent)]
     Strip(#[from] StripError),
     /// An outline cannot have a texture.
     #[error(transparent)]
     Texture(#[from] TextureError),
-    /// The core of a rough solid cannot be determined.
-    #[error(transparent)]
-    Core(#[from] OffsetError),
 }
 
 impl Solid {
@@ -70,13 +44,12 @@ impl Solid {
     /// edges, with chords within 5 µm up to a radius of 1 m.
     ///
     /// # Errors
-    /// [`SolidError`] if the contour is open, has too many pieces, or is too close to itself.
+    /// [`SolidError`] if the contour is open.
     pub fn inside(outline: Contour) -> Result<Self, SolidError> {
         if !outline.is_closed() {
             return Err(SolidError::Open);
         }
-        let parts = smooth_parts(&outline)?;
-        Ok(Self { outline, rough: None, parts })
+        Ok(Self::new(outline, None, Composition::Smooth))
     }
 
     /// Creates the solid inside of `outline` (world frame) with a rough surface.
@@ -85,22 +58,10 @@ impl Solid {
     /// the texture's amplitude of the rough surface.
     ///
     /// # Errors
-    /// [`SolidError`] as for [`inside`](Self::inside), if the outline cannot have the texture, or if there are too many
-    /// waves.
+    /// [`SolidError`] if the outline cannot have the texture.
     pub fn textured(outline: Contour, texture: &Texture) -> Result<Self, SolidError> {
         let rough = outline.textured(texture)?;
-        let mut parts = rough::layer(&rough, texture.amplitude);
-        if parts.is_empty() {
-            parts = smooth_parts(&rough)?;
-        } else {
-            for core in outline.offset(-rough::DEPTH_OF_CORE * texture.amplitude)? {
-                parts.extend(smooth_parts(&core)?);
-            }
-        }
-        if parts.len() > MAX_PARTS {
-            return Err(SolidError::Waves { count: parts.len(), limit: MAX_PARTS });
-        }
-        Ok(Self { outline, rough: Some(rough), parts })
+        Ok(Self::new(outline, Some(rough), Composition::Rough { amplitude: texture.amplitude }))
     }
 
     /// Creates a wall (world frame). `face` is its accessible side. The chords of its bends are within 10 µm of the
@@ -109,15 +70,21 @@ impl Solid {
     /// The outline of a wall along a closed line is its face. The enclosed area is inaccessible and counts as solid.
     ///
     /// # Errors
-    /// [`SolidError`] if the wall intersects itself or is too long.
+    /// [`SolidError`] if the wall intersects itself.
     pub fn wall(wall: &Strip, face: Side) -> Result<Self, SolidError> {
         let side = wall.side(face);
         let outline = if side.is_closed() { side.clone() } else { wall.outline()? };
-        let parts = wall::parts(wall, face);
-        if parts.len() > MAX_PARTS {
-            return Err(SolidError::Parts { count: parts.len(), limit: MAX_PARTS });
-        }
-        Ok(Self { outline, rough: None, parts })
+        Ok(Self::new(outline, None, Composition::Wall { strip: Arc::new(wall.clone()), face }))
+    }
+
+    fn new(outline: Contour, rough: Option<Contour>, composition: Composition) -> Self {
+        Self { outline, rough, composition, parts: Arc::default(), place: None }
+    }
+
+    /// The same solid with the position of its object in the text of a scenario, for messages.
+    #[must_use]
+    pub fn at(self, place: Position) -> Self {
+        Self { place: Some(place), ..self }
     }
 
     /// The exact outline (world frame), without texture. It is the reference of scores.
@@ -132,14 +99,18 @@ impl Solid {
         self.rough.as_ref().unwrap_or(&self.outline)
     }
 
-    /// The convex parts for MuJoCo. They share edges; those of a wall overlap slightly.
+    /// The position of its object in the text of a scenario, if it has one.
     #[must_use]
-    pub fn parts(&self) -> &[Part] {
-        &self.parts
+    pub fn place(&self) -> Option<Position> {
+        self.place
     }
-}
 
-/// The convex parts of the interior of a closed contour.
-fn smooth_parts(outline: &Contour) -> Result<Vec<Part>, SolidError> {
-    if outline.is_convex() { Ok(vec![Part::inside(outline)?]) } else { decompose::parts(outline) }
+    /// The convex parts for MuJoCo. They share edges; those of a wall overlap slightly.
+    ///
+    /// # Errors
+    /// [`PartsFault`] if there are too many, or if the outline is too close to itself.
+    pub fn parts(&self) -> Result<&[Part], &PartsFault> {
+        let parts = self.parts.get_or_init(|| self.composition.parts(&self.outline, self.surface()));
+        parts.as_ref().map(Vec::as_slice)
+    }
 }
