@@ -2,6 +2,7 @@
 
 mod balance;
 mod body;
+mod crowded;
 mod friction;
 mod minimum;
 pub(crate) mod scene;

@@ -20,7 +20,7 @@ pub(super) struct Pair {
 
 /// The kinds of feature pairs. Facets are given by their index, corners by the facet that precedes them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum FeaturePair {
+pub(super) enum FeaturePair {
     /// The far end of the link and a facet. The flag is true once the end has been outside of the facet. Before that,
     /// it is behind solid material and cannot touch the facet.
     EndOnFacet(usize, bool),
@@ -67,72 +67,32 @@ pub(super) enum GapCurvature {
     Rolling(f64),
 }
 
-/// Feature pairs closer than this (m) are tracked individually.
-const PAIR_DISTANCE: f64 = 5e-3;
-/// The distance (m) around the whisker within which facets are searched.
-const SEARCH_MARGIN: f64 = 20e-3;
-
-/// Broad phase: finds all feature pairs that are near each other. The state of pairs that were already in `pairs` is
-/// kept. Returns a lower bound (m) of the distance of all other pairs.
-pub(super) fn broad_phase(rod: &Rod, shape: &Shape, surfaces: &Surfaces, pairs: &mut Vec<Pair>) -> f64 {
-    let previous = pairs.clone();
-    pairs.clear();
-    let mut clear = SEARCH_MARGIN;
-    let mut add = |link: usize, features: FeaturePair, distance: f64| {
-        if distance < PAIR_DISTANCE {
-            let same = |pair: &&Pair| pair.link == link && pair.features.is_same(features);
-            pairs.push(previous.iter().find(same).copied().unwrap_or(Pair::new(link, features)));
-        } else {
-            clear = clear.min(distance);
-        }
-    };
-    for (index, facet) in surfaces.near(shape.bounds(), SEARCH_MARGIN) {
-        for link in 0..rod.links() {
-            let (start, end) = (shape.ends[link], shape.ends[link + 1]);
-            let rest = facet.distance(nalgebra::center(&start, &end)) - 0.5 * rod.link - rod.radius(link);
-            if rest > PAIR_DISTANCE {
-                add(link, FeaturePair::EndOnFacet(index, false), rest);
-                continue;
-            }
-            let radius = rod.end_radius(link);
-            add(link, FeaturePair::EndOnFacet(index, facet.is_outside(end)), facet.distance(end) - radius);
-            if let Junction::Convex(corner) = facet.junction {
-                add(link, FeaturePair::EndOnCorner(index), (end - corner.point).norm() - radius);
-                let (along, aside) = link_coordinates(shape, link, corner.point);
-                let nearest = start + along.clamp(0.0, rod.link) * shape.tangents[link];
-                let distance = (corner.point - nearest).norm() - rod.radius(link);
-                add(link, FeaturePair::SideOnCorner(index, aside.signum()), distance);
-            }
-            if let Some((centre, bulge)) = facet.bulge() {
-                let (along, _) = link_coordinates(shape, link, centre);
-                let nearest = start + along.clamp(0.0, rod.link) * shape.tangents[link];
-                let gap = (centre - nearest).norm() - bulge - rod.radius(link);
-                add(link, FeaturePair::SideOnBulge(index), gap.abs());
-            }
-        }
-    }
-    clear
-}
-
 /// Returns the coordinates of a point in the frame of a link (m): along the link from its near end, and to its left.
-fn link_coordinates(shape: &Shape, link: usize, point: Point2) -> (f64, f64) {
+pub(super) fn link_coordinates(shape: &Shape, link: usize, point: Point2) -> (f64, f64) {
     let from_start = point - shape.ends[link];
     (from_start.dot(&shape.tangents[link]), from_start.dot(&shape.left(link)))
 }
 
 impl FeaturePair {
-    fn is_same(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::SideOnCorner(one, _), Self::SideOnCorner(two, _))
-            | (Self::EndOnFacet(one, _), Self::EndOnFacet(two, _)) => one == two,
-            _ => self == other,
+    /// Identifies the features, whatever their state: their kind, and the index of the facet.
+    fn key(self) -> (usize, u8) {
+        match self {
+            Self::EndOnFacet(facet, _) => (facet, 0),
+            Self::EndOnCorner(facet) => (facet, 1),
+            Self::SideOnCorner(facet, _) => (facet, 2),
+            Self::SideOnBulge(facet) => (facet, 3),
         }
     }
 }
 
 impl Pair {
-    fn new(link: usize, features: FeaturePair) -> Self {
+    pub(super) fn new(link: usize, features: FeaturePair) -> Self {
         Self { link, features, force: ConeForce::default(), anchor: None }
+    }
+
+    /// Identifies the link and the features, whatever their state.
+    pub(super) fn key(&self) -> (usize, (usize, u8)) {
+        (self.link, self.features.key())
     }
 
     /// Measures the slip of the pair from this configuration on, unless it sticks.

@@ -3,6 +3,7 @@
 mod active_set;
 mod base_path;
 mod bordered_tridiagonal;
+mod broad_phase;
 mod contact;
 mod decisions;
 mod equilibrium;

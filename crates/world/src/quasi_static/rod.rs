@@ -142,6 +142,11 @@ impl Shape {
         self.world_angles[link]
     }
 
+    /// The bounding box of the axis of a link.
+    pub(super) fn bounds_of(&self, link: usize) -> BoundingBox {
+        BoundingBox::around(self.ends[link], self.ends[link + 1])
+    }
+
     /// The bounding box of the axis, without the thickness of the shaft.
     pub(super) fn bounds(&self) -> BoundingBox {
         let bounds = BoundingBox::around(self.ends[0], self.ends[0]);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rstar::{AABB, RTree, RTreeObject};
 
-use crate::geometry::{BoundingBox, Contour, Piece, Point2, TreePoint, Vector2, perpendicular, tree_point, unit};
+use crate::geometry::{self, BoundingBox, Contour, Piece, Point2, TreePoint, Vector2, perpendicular, tree_point, unit};
 use crate::solid::Solid;
 
 /// The outlines of all solids as facets, with a spatial index.
@@ -31,6 +31,8 @@ pub(super) struct Facet {
     pub(super) next: usize,
     /// The junction with the following facet.
     pub(super) junction: Junction,
+    /// True if very many facets are near it.
+    pub(super) is_crowded: bool,
 }
 
 /// The junction of two pieces of an outline.
@@ -95,16 +97,21 @@ const JUNCTION_OVERLAP: f64 = 1e-8;
 /// The largest extension (m) at a concave corner. It is longer than the motion of a whisker in a sample.
 const MAX_EXTENSION: f64 = 5e-3;
 
+/// A facet is crowded if so many before it and as many after it are on a stretch of the outline of this length (m).
+const CROWD: usize = 500;
+const CROWDED: f64 = 0.2;
+
 impl Surfaces {
     pub(super) fn new(solids: &[Solid]) -> Self {
         let mut facets = Vec::new();
         for outline in solids.iter().map(Solid::surface) {
-            let (first, pieces, corners) = (facets.len(), outline.pieces(), outline.corners());
+            let (first, pieces) = (facets.len(), outline.pieces());
+            let corners = corners_by_piece(outline);
+            let is_crowded = crowded(pieces);
             for (index, piece) in pieces.iter().enumerate() {
                 let following = (index + 1) % pieces.len();
                 let next = &pieces[following];
-                let corner = corners.iter().find(|corner| corner.point == next.start());
-                let junction = match corner {
+                let junction = match corners[following] {
                     Some(corner) if corner.turn > 0.0 => Junction::Convex(Corner {
                         point: corner.point,
                         incoming: piece.tangent_at(piece.length()),
@@ -121,6 +128,7 @@ impl Surfaces {
                     bounds: piece.bounding_box(),
                     next: first + following,
                     junction,
+                    is_crowded: is_crowded[index],
                 });
             }
         }
@@ -160,6 +168,28 @@ impl Surfaces {
         let wide = AABB::from_corners((min.x, min.y), (max.x, max.y));
         self.tree.locate_in_envelope_intersecting(wide).map(|leaf| (leaf.index, &self.facets[leaf.index]))
     }
+}
+
+/// For every piece of an outline, the corner at its start.
+fn corners_by_piece(outline: &Contour) -> Vec<Option<geometry::Corner>> {
+    // The corners are in the order of the pieces.
+    let mut corners = outline.corners().into_iter().peekable();
+    outline.pieces().iter().map(|piece| corners.next_if(|corner| corner.point == piece.start())).collect()
+}
+
+/// For every piece of a closed outline, true if it is crowded.
+fn crowded(pieces: &[Piece]) -> Vec<bool> {
+    let count = pieces.len();
+    if count <= 2 * CROWD {
+        return vec![false; count];
+    }
+    let mut stretch: f64 = pieces[..2 * CROWD].iter().map(Piece::length).sum();
+    let mut crowded = vec![false; count];
+    for first in 0..count {
+        crowded[(first + CROWD) % count] = stretch < CROWDED;
+        stretch += pieces[(first + 2 * CROWD) % count].length() - pieces[first].length();
+    }
+    crowded
 }
 
 impl Facet {

@@ -4,7 +4,8 @@ use crate::geometry::{Point2, Pose, Vector2};
 use vibrissa_runtime::rig::Whisker;
 
 use super::base_path::BasePath;
-use super::contact::{Contact, Pair, broad_phase, narrow_phase};
+use super::broad_phase::{Clearance, broad_phase};
+use super::contact::{Contact, Pair, narrow_phase};
 use super::equilibrium::{EquilibriumSolver, Step};
 use super::first_order_lag::FirstOrderLag;
 use super::friction::ConeForce;
@@ -22,8 +23,8 @@ pub(super) struct QuasiStaticWhisker {
     has_friction: bool,
     pairs: Vec<Pair>,
     contacts: Vec<Contact>,
-    /// A lower bound (m) of the distance of all feature pairs that are not in `pairs`.
-    clear: f64,
+    /// How far all feature pairs are that are not in `pairs`.
+    clearance: Clearance,
     /// The change of every angle in the last sample (rad), if it can be extrapolated.
     prediction: Option<Vec<f64>>,
     previous_angles: Vec<f64>,
@@ -52,9 +53,7 @@ const CONVERGED: f64 = 2e-7;
 /// follows in the next sample.
 const MAX_STEPS: usize = 80;
 /// The largest displacement (m) of a descent step.
-const MAX_DESCENT: f64 = 3e-4;
-/// The broad phase is repeated if the clearance of the remaining pairs falls below this (m).
-const MIN_CLEARANCE: f64 = 1e-3;
+pub(super) const MAX_DESCENT: f64 = 3e-4;
 /// The largest number of consecutive samples without an equilibrium.
 const MAX_UNSETTLED_SAMPLES: usize = 300;
 /// The largest number of substeps of a sample.
@@ -76,7 +75,7 @@ impl QuasiStaticWhisker {
             has_friction: friction > 0.0,
             pairs: Vec::new(),
             contacts: Vec::new(),
-            clear: 0.0,
+            clearance: Clearance::UNKNOWN,
             prediction: None,
             previous_angles: vec![0.0; rod.links()],
             unsettled_samples: 0,
@@ -138,8 +137,8 @@ impl QuasiStaticWhisker {
         let base_motion =
             (base.position - from.position).norm() + self.rod.length() * (base.heading - from.heading).abs();
         let is_at_rest = self.unsettled_samples == 0 && self.shape.is_at_rest();
-        if is_at_rest && self.pairs.is_empty() && self.clear > base_motion {
-            self.clear -= base_motion;
+        if is_at_rest && self.pairs.is_empty() && self.clearance.clear > base_motion {
+            self.clearance.clear -= base_motion;
             self.relative_motion = 0.0;
             self.shape.base = base;
             self.hinge.follow(0.0, period);
@@ -169,7 +168,7 @@ impl QuasiStaticWhisker {
                 position: from.position + done * (base.position - from.position),
                 heading: from.heading + done * (base.heading - from.heading),
             };
-            self.clear -= share * motion;
+            self.clearance.clear -= share * motion;
             settled = self.settle(if done < 1.0 { pose } else { base }, surfaces)?;
         }
         self.unsettled_samples = if settled { 0 } else { self.unsettled_samples + 1 };
@@ -197,7 +196,7 @@ impl QuasiStaticWhisker {
     fn nearest_idle(&self, surfaces: &Surfaces) -> f64 {
         let inactive = self.contacts.iter().filter(|contact| !contact.force.acts()).map(|contact| contact.gap);
         let corners = self.pairs.iter().filter_map(|pair| pair.sharp_corner(&self.shape, surfaces));
-        inactive.chain(corners).fold(self.clear, f64::min)
+        inactive.chain(corners).fold(self.clearance.clear, f64::min)
     }
 
     /// Iterates towards the equilibrium for a pose of the base. Returns true if it converged.
@@ -205,8 +204,8 @@ impl QuasiStaticWhisker {
         self.release_anchors(surfaces);
         self.shape.place(&self.rod, base);
         for _ in 0..MAX_STEPS {
-            if self.clear < MIN_CLEARANCE {
-                self.clear = broad_phase(&self.rod, &self.shape, surfaces, &mut self.pairs);
+            if self.clearance.is_used_up() {
+                self.clearance = broad_phase(&self.rod, &self.shape, surfaces, &mut self.pairs);
             }
             narrow_phase(&self.rod, &self.shape, surfaces, &mut self.pairs, &mut self.contacts, self.has_friction);
             let is_free = self.contacts.iter().all(|contact| contact.gap >= 0.0 && !contact.force.acts());
@@ -246,10 +245,10 @@ impl QuasiStaticWhisker {
 
     /// Applies a step within the trust radius. Returns true if it converged.
     fn take(&mut self, step: &Step) -> bool {
-        let trust_radius = if step.is_newton { self.clear } else { MAX_DESCENT };
+        let trust_radius = if step.is_newton { self.clearance.clear } else { MAX_DESCENT };
         let share = (trust_radius / step.max_displacement).min(1.0);
         self.solver.take(&mut self.shape, share);
-        self.clear -= share * step.max_displacement;
+        self.clearance.clear -= share * step.max_displacement;
         for pair in &mut self.pairs {
             pair.force = ConeForce::default();
         }
