@@ -48,7 +48,12 @@ impl Contour {
 
     /// The pieces that may be near a line: their boxes intersect its box, enlarged by [`JOIN_TOLERANCE`].
     pub fn pieces_near(&self, line: &Segment) -> impl Iterator<Item = &Piece> {
-        self.near(grown(&line.bounding_box(), JOIN_TOLERANCE)).map(|leaf| &leaf.piece)
+        self.pieces_within(line, 0.0)
+    }
+
+    /// The pieces that may be within a `distance` (m) of a line.
+    pub fn pieces_within(&self, line: &Segment, distance: f64) -> impl Iterator<Item = &Piece> {
+        self.near(grown(&line.bounding_box(), distance + JOIN_TOLERANCE)).map(|leaf| &leaf.piece)
     }
 
     /// The pieces whose boxes intersect a box.

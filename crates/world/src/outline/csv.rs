@@ -135,20 +135,13 @@ impl Row {
             let cells = line.split_whitespace().map(str::to_owned).collect();
             return Ok(Self { cells, has_decimal_commas: false });
         };
-        let mut record = StringRecord::new();
-        ReaderBuilder::new()
-            .delimiter(character)
-            .has_headers(false)
-            .trim(Trim::All)
-            .buffer_capacity(256)
-            .from_reader(line.as_bytes())
-            .read_record(&mut record)
-            .map_err(|error| OutlineFault::Syntax { reason: error.to_string() })?;
-        let mut cells: Vec<String> = record.iter().map(str::to_owned).collect();
-        while cells.len() > 2 && cells.last().is_some_and(String::is_empty) {
-            cells.pop();
-        }
-        Ok(Self { cells, has_decimal_commas: character != b',' })
+        // To build a reader takes a hundred times as long as to split a line.
+        let cells = if line.contains(['"', '\r']) {
+            quoted(line, character)?
+        } else {
+            line.split(char::from(character)).map(|cell| cell.trim().to_owned()).collect()
+        };
+        Ok(Self { cells: without_empty_end(cells), has_decimal_commas: character != b',' })
     }
 
     fn place(&self) -> Option<[f64; 2]> {
@@ -172,4 +165,26 @@ impl Row {
         };
         self.cells.len() == 2 && self.cells.iter().all(is_name)
     }
+}
+
+/// The cells of a line with quotes.
+fn quoted(line: &str, separator: u8) -> Result<Vec<String>, OutlineFault> {
+    let mut record = StringRecord::new();
+    ReaderBuilder::new()
+        .delimiter(separator)
+        .has_headers(false)
+        .trim(Trim::All)
+        .buffer_capacity(256)
+        .from_reader(line.as_bytes())
+        .read_record(&mut record)
+        .map_err(|error| OutlineFault::Syntax { reason: error.to_string() })?;
+    Ok(record.iter().map(str::to_owned).collect())
+}
+
+/// The cells without empty ones behind the second.
+fn without_empty_end(mut cells: Vec<String>) -> Vec<String> {
+    while cells.len() > 2 && cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
 }

@@ -37,7 +37,7 @@ pub(crate) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overla
 /// does not meet the outline is outside if one of its points is.
 fn is_clear(object: &Contour, start: Point2, end: Point2, margin: f64) -> bool {
     let line = Segment { start, end };
-    !object.contains(start) && object.pieces().iter().all(|piece| gap(&line, piece) > margin)
+    !object.contains(start) && object.pieces_within(&line, margin).all(|piece| gap(&line, piece) > margin)
 }
 
 /// True if a point is inside of a convex polygon, given counter-clockwise.
