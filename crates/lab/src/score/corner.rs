@@ -2,9 +2,14 @@
 
 use std::f64::consts::PI;
 
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
 use crate::run::Trace;
 use vibrissa_runtime::math;
-use vibrissa_world::geometry::{Contour, ContourSet, Corner, Point2, Vector2, perpendicular, rotate, turn_between};
+use vibrissa_world::geometry::{
+    Contour, ContourSet, Corner, Point2, TreePoint, Vector2, perpendicular, rotate, tree_point, turn_between,
+};
 
 use super::tip::{valid_tips, whiskers};
 use super::{Moments, Statistics, excursions};
@@ -80,8 +85,10 @@ pub fn traced_corners(trace: &Trace, outlines: &ContourSet) -> (Vec<TracedCorner
         sharp.iter().enumerate().flat_map(|(outline, corners)| corners.iter().map(move |corner| (outline, *corner)));
     let all: Vec<(usize, Corner)> = all.collect();
     let costs = costs(trace, &all);
-    let traced = all.iter().zip(costs).filter_map(|(&(index, corner), Cost { edge, time, path })| {
-        let (place_world, turn_error) = reconstructed(outlines[index], &sharp[index], &corner, &felt[index])?;
+    let numbers = sharp.iter().flat_map(|corners| 0..corners.len());
+    let traced = all.iter().zip(numbers).zip(costs).filter_map(|((&(index, corner), number), cost)| {
+        let Cost { edge, time, path } = cost;
+        let (place_world, turn_error) = reconstructed(outlines[index], &sharp[index], number, &felt[index])?;
         Some(TracedCorner { corner, place_world, turn_error, edge, time, path })
     });
     (traced.collect(), count)
@@ -98,9 +105,11 @@ struct Cost {
 /// The cost of every corner. An excursion is attributed to the corner nearest to its beginning.
 fn costs(trace: &Trace, corners: &[(usize, Corner)]) -> Vec<Cost> {
     let mut costs = vec![Cost::default(); corners.len()];
+    let tree = tree_of(corners.iter().map(|(_, corner)| corner));
     for excursion in excursions(trace) {
-        let from_edge = |(_, corner): &(usize, Corner)| (corner.point - excursion.edge_world).norm();
-        let nearest = corners.iter().map(from_edge).enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b));
+        let from_edge = |index: usize| (index, (corners[index].1.point - excursion.edge_world).norm());
+        let near = near(&tree, excursion.edge_world, MAX_CLAIM).map(from_edge);
+        let nearest = near.min_by(|(one, a), (other, b)| a.total_cmp(b).then(one.cmp(other)));
         if let Some((index, distance)) = nearest.filter(|&(_, distance)| distance <= MAX_CLAIM) {
             let cost = &mut costs[index];
             cost.edge = cost.edge.or(Some(distance));
@@ -115,30 +124,75 @@ fn sharp(outline: &Contour) -> Vec<Corner> {
     outline.corners().into_iter().filter(|corner| corner.turn.abs() > SHARP).collect()
 }
 
+/// The positions of corners, with their indices.
+fn tree_of<'c>(corners: impl Iterator<Item = &'c Corner>) -> RTree<GeomWithData<TreePoint, usize>> {
+    let places = corners.enumerate().map(|(index, corner)| GeomWithData::new(tree_point(corner.point), index));
+    RTree::bulk_load(places.collect())
+}
+
+/// The indices of the corners within a distance (m) of a point, in no particular order. Some may be farther by a rounding
+/// error.
+fn near(tree: &RTree<GeomWithData<TreePoint, usize>>, point: Point2, distance: f64) -> impl Iterator<Item = usize> {
+    let reach = distance + ROUNDING;
+    tree.locate_within_distance(tree_point(point), reach * reach).map(|corner| corner.data)
+}
+
 /// A tip relative to its nearest outline: arc length (m), and offset to the right (m).
 type OutlineTip = (f64, f64);
 
+/// The tips at an outline.
+struct OutlineTips {
+    tips: Vec<OutlineTip>,
+    /// The indices of the tips, by arc length.
+    order: Vec<usize>,
+}
+
+impl OutlineTips {
+    fn new(tips: Vec<OutlineTip>) -> Self {
+        let mut order: Vec<usize> = (0..tips.len()).collect();
+        order.sort_by(|&one, &other| tips[one].0.total_cmp(&tips[other].0));
+        Self { tips, order }
+    }
+
+    /// The tips whose arc lengths (m) are between these two, in the order of the tips. The arc length of an outline is
+    /// periodic if it has a `period` (m).
+    fn between(&self, start: f64, end: f64, period: Option<f64>) -> impl Iterator<Item = OutlineTip> {
+        let within = |start: f64, end: f64| {
+            let position = |arc_length: f64| self.order.partition_point(|&tip| self.tips[tip].0 < arc_length);
+            self.order.get(position(start)..position(end.next_up())).unwrap_or_default()
+        };
+        let shifted = period.into_iter().flat_map(|period| [-period, period]);
+        let found = std::iter::once(0.0).chain(shifted).flat_map(|shift| within(start + shift, end + shift));
+        let mut found: Vec<usize> = found.copied().collect();
+        found.sort_unstable();
+        found.dedup();
+        found.into_iter().map(|tip| self.tips[tip])
+    }
+}
+
 /// The tips of a run that may belong to a side of a `sharp` corner, grouped by their nearest outline.
-fn tips_by_outline(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<Vec<OutlineTip>> {
+fn tips_by_outline(trace: &Trace, outlines: &[&Contour], sharp: &[Vec<Corner>]) -> Vec<OutlineTips> {
     let mut felt = vec![Vec::new(); outlines.len()];
+    let trees: Vec<_> = sharp.iter().map(|corners| tree_of(corners.iter())).collect();
     for (_, tip) in whiskers(trace).flat_map(|whisker| valid_tips(trace, whisker)) {
         let distances = outlines.iter().map(|outline| outline.distance(tip)).enumerate();
         let Some((index, distance)) = distances.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { continue };
         // The straight distance is at most the distance along the outline.
         let reach = SIDE.1 + distance + ROUNDING;
-        if sharp[index].iter().any(|corner| (tip - corner.point).norm() <= reach) {
+        if near(&trees[index], tip, reach).any(|corner| (tip - sharp[index][corner].point).norm() <= reach) {
             felt[index].push((outlines[index].nearest(tip).arc_length, outlines[index].signed_distance(tip)));
         }
     }
-    felt
+    felt.into_iter().map(OutlineTips::new).collect()
 }
 
-/// The position of the estimated corner and its excess angle. `None` if it was not traced on both sides.
-fn reconstructed(outline: &Contour, sharp: &[Corner], corner: &Corner, felt: &[OutlineTip]) -> Option<(Point2, f64)> {
+/// The position of the estimated corner with this `number`, and its excess angle. `None` if it was not traced on both sides.
+fn reconstructed(outline: &Contour, sharp: &[Corner], number: usize, felt: &OutlineTips) -> Option<(Point2, f64)> {
+    let corner = sharp.get(number)?;
     let outgoing = outline.tangent_at(corner.arc_length);
     let incoming = rotate(outgoing, -corner.turn);
-    let before = Line::fitted(outline, sharp, corner, felt, incoming, -1.0)?;
-    let after = Line::fitted(outline, sharp, corner, felt, outgoing, 1.0)?;
+    let before = Line::fitted(outline, sharp, number, felt, incoming, -1.0)?;
+    let after = Line::fitted(outline, sharp, number, felt, outgoing, 1.0)?;
     let turn = math::atan2(before.direction.perp(&after.direction), before.direction.dot(&after.direction));
     let sine = math::sin(turn);
     if sine.abs() < math::sin(MIN_ANGLE) {
@@ -157,29 +211,41 @@ struct Line {
 }
 
 impl Line {
-    /// Fits the side before (`way` −1) or after (`way` +1) a corner. The exact outline has the direction `tangent`
-    /// there.
+    /// Fits the side before (`way` −1) or after (`way` +1) the corner with this `number`. The exact outline has the
+    /// direction `tangent` there.
     fn fitted(
         outline: &Contour,
         sharp: &[Corner],
-        corner: &Corner,
-        felt: &[OutlineTip],
+        number: usize,
+        felt: &OutlineTips,
         tangent: Vector2,
         way: f64,
     ) -> Option<Self> {
+        let corner = sharp.get(number)?;
+        let period = outline.is_closed().then(|| outline.length());
         // Arc length from the corner in the direction of the side.
         let from_corner = |arc_length: f64| {
             let along = way * (arc_length - corner.arc_length);
-            if outline.is_closed() { along.rem_euclid(outline.length()) } else { along }
+            period.map_or(along, |period| along.rem_euclid(period))
         };
         let end = if outline.is_closed() || way > 0.0 { outline.length() } else { 0.0 };
         let to_end = if outline.is_closed() { end } else { from_corner(end) };
-        let to_next = sharp.iter().map(|next| from_corner(next.arc_length)).filter(|&along| along > 0.0);
-        let length = to_next.fold(to_end, f64::min);
+        // The corners are in the order of their arc lengths.
+        let (after, before) = (number + 1, number.checked_sub(1));
+        let next = match (way > 0.0, outline.is_closed()) {
+            (true, true) => sharp.get(after % sharp.len()),
+            (true, false) => sharp.get(after),
+            (false, true) => before.map_or(sharp.last(), |before| sharp.get(before)),
+            (false, false) => before.and_then(|before| sharp.get(before)),
+        };
+        let to_next = next.map(|next| from_corner(next.arc_length)).filter(|&along| along > 0.0);
+        let length = to_next.map_or(to_end, |to_next| to_end.min(to_next));
         let nearest = SIDE.0.min(SHORT_SIDE * length);
         let farthest = SIDE.1.min(length - nearest);
         let (mut along, mut off) = (Vec::new(), Vec::new());
-        for &(arc_length, offset) in felt {
+        let far = corner.arc_length + way * farthest;
+        let [start, end] = [far.min(corner.arc_length) - ROUNDING, far.max(corner.arc_length) + ROUNDING];
+        for (arc_length, offset) in felt.between(start, end, period) {
             let distance = from_corner(arc_length);
             if (nearest..=farthest).contains(&distance) {
                 along.push(way * distance);
