@@ -165,6 +165,15 @@ fn what_is_open_has_no_inside() {
 }
 
 /// The engine takes all parts that there can be, however thin.
+#[test]
+fn clones_share_their_parts_whoever_asks_first() {
+    let corners = [(0.0, 0.0), (0.2, 0.0), (0.05, 0.05), (0.0, 0.2)].map(|(x, y)| Point2::new(x, y));
+    let solid = Solid::inside(polygon(&corners).unwrap()).unwrap();
+    let clone = solid.clone();
+    assert!(std::ptr::eq(clone.parts().unwrap(), solid.parts().unwrap()));
+    assert!(clone.parts().unwrap().len() > 1);
+}
+
 #[cfg(feature = "sim")]
 mod engine {
     use super::*;

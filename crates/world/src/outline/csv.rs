@@ -188,3 +188,22 @@ fn without_empty_end(mut cells: Vec<String>) -> Vec<String> {
     }
     cells
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_line_without_quotes_has_the_cells_that_the_crate_reads(
+            line in "[-0-9.e]{1,6}([ \t]{0,2}[,;][ \t]{0,2}[-0-9.e\u{e9}]{0,6}){0,4}", separator in prop::sample::select(vec![b',', b';', b'\t']),
+        ) {
+            let row = Row::of(&line, Separator::Character(separator)).unwrap();
+            prop_assert_eq!(row.cells, without_empty_end(quoted(&line, separator).unwrap()));
+        }
+    }
+}
