@@ -19,6 +19,7 @@ mod inspect;
 mod interrupt;
 #[cfg(all(target_os = "linux", feature = "sim"))]
 mod library;
+mod many_pieces;
 mod mismatch;
 #[cfg(target_os = "linux")]
 mod names;

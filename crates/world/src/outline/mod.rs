@@ -39,7 +39,7 @@ pub const SIZE_LIMIT: usize = 16 << 20;
 const TOLERANCE: f64 = 1e-6;
 
 /// The largest number of pieces of all outlines of a file, and of all objects of a scenario.
-pub(crate) const MAX_PIECES: usize = 10_000;
+pub(crate) const MAX_PIECES: usize = 200_000;
 
 /// The largest number of outlines of a file.
 #[cfg(feature = "outlines")]
