@@ -16,7 +16,7 @@ fn scene(name: &str) -> Scene {
 
 fn pruning(scene: &Scene, bound: &[&str], world: WorldKind) -> Pruning {
     let bound: Vec<String> = bound.iter().map(ToString::to_string).collect();
-    trial::pruning(scene, &scene.rig, &scene.physics, &bound, world)
+    trial::pruning(scene, &scene.rig, &scene.physics, &bound, world).unwrap()
 }
 
 #[test]

@@ -16,7 +16,7 @@ fn base_angles(outline: Contour) -> Vec<f64> {
     let mut world = QuasiStaticWorld::new(&one_whisker(), &Physics::default(), &solids([outline]), START, 0).unwrap();
     let mut angles = Vec::new();
     for (ticks, command) in
-        [(90, command(0.0, 0.05, 0.0)), (30, command(0.02, 0.05, -0.3)), (60, command(-0.02, 0.05, 0.2))]
+        [(90, command(0.0, 0.05, 0.0)), (30, command(0.01, 0.04, 0.0)), (30, command(-0.01, 0.04, 0.0))]
     {
         for _ in 0..ticks {
             angles.extend(world.advance(&command).unwrap().iter().map(|sample| sample.whiskers[0].base_angle));
@@ -30,7 +30,7 @@ fn a_polygon_of_very_many_sides_is_felt_as_its_circle() {
     let centre = Point2::new(CENTRE[0], CENTRE[1]);
     let circle = base_angles(vibrissa::geometry::circle(centre, RADIUS).unwrap());
     let most = circle.iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
-    assert!(most > 1e-4, "{most} rad");
+    assert!(most > 3e-5, "{most} rad");
     for sides in [20_000_u32, 100_000] {
         let corner = |index: u32| {
             let angle = std::f64::consts::TAU * f64::from(index) / f64::from(sides);
@@ -39,6 +39,6 @@ fn a_polygon_of_very_many_sides_is_felt_as_its_circle() {
         let corners: Vec<Point2> = (0..sides).map(corner).collect();
         let felt = base_angles(polygon(&corners).unwrap());
         let apart = felt.iter().zip(&circle).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
-        assert!(apart < 1e-3 * most, "{sides} sides: {apart} rad of {most} rad");
+        assert!(apart < 2e-3 * most, "{sides} sides: {apart} rad of {most} rad");
     }
 }
