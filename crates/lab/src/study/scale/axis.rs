@@ -58,7 +58,7 @@ pub fn axes() -> Vec<Axis> {
             "lines",
             "run round a polygon".to_owned(),
             QUASI_STATIC,
-            &[100, 1000, 2000],
+            &[1000, 10_000, 100_000],
             case::outline_pieces,
         ),
         ("whiskers", "whiskers", beside.clone(), QUASI_STATIC, &[2, 4, 8], case::whiskers),
