@@ -396,7 +396,7 @@ mod tests {
             name.clone_into(&mut whisker.name);
         }
         rig.sensing.forces = true;
-        let xml = mjcf(&rig, &Physics::default(), &[], Pose::default());
+        let xml = mjcf(&rig, &Physics::default(), &[], Pose::default()).unwrap();
         for element in ["<body", "<joint", "<geom", "<site", "<force", "<velocity"] {
             let tags: String = xml.split(element).skip(1).map(|rest| rest.split('>').next().unwrap()).collect();
             let mut names = values(&tags, "name");
@@ -415,7 +415,7 @@ mod tests {
         let mut rig = Rig::default();
         rig.whiskers.truncate(1);
         rig.whiskers[0].shaft.tip_radius = Some(0.025e-3);
-        let xml = mjcf(&rig, &Physics::default(), &[], Pose::default());
+        let xml = mjcf(&rig, &Physics::default(), &[], Pose::default()).unwrap();
         for (element, attribute) in
             [("<geom name=\"r0.", "size"), ("<inertial pos=\"0.003", "mass"), ("<joint name=\"r0.", "stiffness")]
         {
@@ -431,7 +431,7 @@ mod tests {
         for (radius, links) in [(0.06e-3, 16), (0.075e-3, 64), (0.02e-3, 64)] {
             let mut rig = Rig::default();
             (rig.whiskers[0].shaft.radius, rig.whiskers[0].shaft.links) = (radius, links);
-            let xml = mjcf(&rig, &Physics::default(), &[], Pose::default());
+            let xml = mjcf(&rig, &Physics::default(), &[], Pose::default()).unwrap();
             for inertias in values(&xml, "diaginertia") {
                 let moments: Vec<f64> = inertias.split(' ').map(|moment| moment.parse().unwrap()).collect();
                 let [x, y, z] = moments[..] else { panic!("three moments, found {inertias}") };

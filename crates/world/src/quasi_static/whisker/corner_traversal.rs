@@ -71,7 +71,7 @@ impl Obstacle {
 fn obstacles() -> impl Strategy<Value = Obstacle> {
     prop_oneof![
         5 => (0.1..3.0_f64).prop_map(Obstacle::Wedge),
-        2 => (3.0..3.14_f64).prop_map(Obstacle::Wedge),
+        2 => (3.0..PI - 1e-3).prop_map(Obstacle::Wedge),
         2 => (2e-3..10e-3_f64).prop_map(Obstacle::Blade),
         1 => (0.5e-3..10e-3_f64).prop_map(Obstacle::Pin),
         1 => (0.3..2.6_f64).prop_map(Obstacle::InnerCorner),
