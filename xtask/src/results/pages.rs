@@ -82,7 +82,7 @@ pub(crate) const FAMILIES: [&str; 2] = [
 ];
 
 /// All pages, roughly those first that take least time.
-pub(super) const PAGES: [Page; 16] = [
+pub(super) const PAGES: [Page; 17] = [
     Page {
         name: "disk",
         title: "Picture of the disk",

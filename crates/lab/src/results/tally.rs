@@ -8,6 +8,7 @@ use vibrissa_declare::figures::Metric;
 
 /// The figures of a run that are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is counted by itself")]
 pub struct Figures {
     /// The outcome.
     pub ending: Ending,
