@@ -11,8 +11,10 @@ use crate::json::Json;
 const CONVEX: [&str; 6] = ["disk", "rounded-rectangle", "octagon", "box", "prism", "wall"];
 /// The condition in which no difference is left out.
 const TOGETHER: &str = "all together";
-/// The names of the conditions of each command, from the settings of a group.
-const CONDITIONS: [fn(&Json) -> Result<String, NoKey>; 4] = [
+/// Names a condition, from the settings of a group.
+type Name = fn(&Json) -> Result<String, NoKey>;
+/// The names of the conditions of each command.
+const CONDITIONS: [Name; 4] = [
     |group| Ok(format!("{}, uncalibrated", difference(group)?)),
     |group| Ok(format!("{}, calibrated", difference(group)?)),
     |_| Ok("round wires".to_owned()),
