@@ -12,6 +12,7 @@
     ("object", include_str!("object.fsm")),
     ("obstacle", include_str!("obstacle.fsm")),
     ("platform", include_str!("platform.fsm")),
+    ("posture", include_str!("posture.fsm")),
     ("retrieval", include_str!("retrieval.fsm")),
     ("search", include_str!("search.fsm")),
     ("senses", include_str!("senses.fsm")),
