@@ -90,6 +90,7 @@ impl PerceivedWhisker {
         estimator: Box<dyn ContactEstimator>,
         sensing: &Sensing,
     ) -> Self {
+        let base_angle_deviation = filtered_deviation(sensing, sensing.angle_noise);
         Self {
             base_body: whisker.base_body.coords,
             direction_body: whisker.direction_body,
@@ -101,9 +102,9 @@ impl PerceivedWhisker {
             estimator,
             contact: None,
             curve,
-            contact_threshold: sensing.contact_threshold,
+            contact_threshold: contact_threshold(sensing, base_angle_deviation),
             surface_roughness: sensing.surface_roughness,
-            base_angle_deviation: filtered_deviation(sensing, sensing.angle_noise),
+            base_angle_deviation,
             noise: MeasuredNoise::new(sensing),
             used_noise: sensing.reading_deviation(),
             lost: 0,
@@ -271,8 +272,7 @@ impl PerceivedWhisker {
             self.used_noise = noise;
             self.estimator.set_noise(noise);
             self.base_angle_deviation = filtered_deviation(&self.sensing, noise);
-            self.contact_threshold =
-                math::max(self.sensing.contact_threshold, NOISE_THRESHOLD * self.base_angle_deviation);
+            self.contact_threshold = contact_threshold(&self.sensing, self.base_angle_deviation);
         }
     }
 
@@ -390,4 +390,9 @@ pub(super) fn filtered_deviation(sensing: &Sensing, noise: f64) -> f64 {
     // The filter reduces noise, but not the rounding error of a whisker at rest.
     let noise = noise * LowPass::noise_gain(sensing.filter_cutoff, sensing.sample_rate);
     math::hypot(noise, sensing.angle_resolution / 12.0_f64.sqrt())
+}
+
+/// Base angle (rad) above which a whisker touches: that of the rig, and no less than the noise reaches.
+fn contact_threshold(sensing: &Sensing, base_angle_deviation: f64) -> f64 {
+    math::max(sensing.contact_threshold, NOISE_THRESHOLD * base_angle_deviation)
 }
