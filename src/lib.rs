@@ -4,6 +4,9 @@
 //! and scores the estimated contour against the exact one. The crate [`vibrissa_runtime`] has the control loop that also
 //! runs on the robot.
 //!
+//! For contributors: only commands, the live page, videos and files of services are in this crate. An option is in
+//! `command/NAME.rs` and its parser in `command/values.rs`. Everything else is exported from `crates`.
+//!
 //! # From a scenario to a result
 //!
 //! 1. [`scenario::read`] reads a scenario from a text. The result is a [`scene::Scene`] in SI units.

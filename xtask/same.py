@@ -72,7 +72,7 @@ def run(program, folder, *arguments):
 def documents(program, folder, count):
     """Names and texts of all documents."""
     (folder / "same.yaml").write_text(SWEEP)
-    yield "bench", run(program, folder, "bench", "--json")
+    yield "bench", run(program, folder, "bench", "--ideal", "--json")
     yield "families", run(program, folder, "families", "--count", str(count), "--json")
     yield "sweep", run(program, folder, "sweep", "same.yaml", "--out", "sweep", "--json")
     lines = (folder / "sweep" / "results.jsonl").read_text().splitlines()

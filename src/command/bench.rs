@@ -114,8 +114,8 @@ pub(super) fn bench_trials(
     arguments: &BenchTrials,
     files: &mut CommandFiles,
 ) -> Result<(Vec<(Conditions, Trial)>, GivenMismatch), Failure> {
-    let (policies, conditions) = (arguments.policies.load(files)?, arguments.conditions.all());
-    let mismatch = arguments.array.load(files)?;
+    let policies = arguments.policies.load(files)?;
+    let (conditions, mismatch) = arguments.conditions.of(arguments.array.load(files)?)?;
     let scenarios = SCENARIOS.iter().map(|file| Ok((file, load::built_in_scenario(file)?)));
     let scenarios = scenarios.collect::<Result<Vec<_>, Failure>>()?;
     let mut trials = Vec::with_capacity(scenarios.len() * policies.len() * conditions.len());

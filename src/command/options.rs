@@ -14,7 +14,7 @@ use vibrissa_runtime::units::{Quantity, parse_quantity};
 use super::failure::Failure;
 use super::output;
 use super::values::{parse_friction, parse_jobs, parse_seed};
-use vibrissa_lab::built_in::{POLICIES, TextFile};
+use vibrissa_lab::built_in::{POLICIES, REAL_MISMATCH, TextFile};
 use vibrissa_lab::family::{Family, Values};
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy};
 use vibrissa_lab::study::bench::Conditions;
@@ -295,19 +295,38 @@ impl Policies {
 #[derive(Debug, Args)]
 pub(super) struct ConditionOptions {
     /// Coefficients of friction of the objects, with a run for each: --friction 0,0.1,0.3
-    #[arg(long, value_name = "MU", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = parse_friction)]
+    #[arg(long, value_name = "MU", value_delimiter = ',', allow_negative_numbers = true, value_parser = parse_friction)]
     friction: Vec<f64>,
     /// Simulate the estimated noise and resolution of the real sensors
     #[arg(long)]
     noise: bool,
+    /// Simulate the array that control assumes, without friction, noise and delays. Without this option and
+    /// `--friction`, `--noise`, `--mismatch`, whiskers are round wires under gravity, and the array differs by the
+    /// built-in mismatch `real`
+    #[arg(long)]
+    ideal: bool,
 }
 
 impl ConditionOptions {
-    /// The conditions, each once.
-    pub(super) fn all(&self) -> Vec<Conditions> {
+    /// The conditions, each once, for an array whose mismatch is given or not, and this array.
+    ///
+    /// # Errors
+    /// [`LoadError`] if the built-in mismatch cannot be read.
+    pub(super) fn of(&self, array: GivenMismatch) -> Result<(Vec<Conditions>, GivenMismatch), LoadError> {
+        if !self.ideal && !self.noise && self.friction.is_empty() && array.is_none() {
+            return Ok((vec![Conditions::REAL], array.or_built_in(REAL_MISMATCH)?));
+        }
+        Ok((self.stated(), array))
+    }
+
+    /// The conditions that are stated, each once.
+    fn stated(&self) -> Vec<Conditions> {
+        if self.friction.is_empty() {
+            return vec![Conditions { noise: self.noise, ..Conditions::default() }];
+        }
         let mut all: Vec<Conditions> = Vec::new();
         for &friction in &self.friction {
-            let conditions = Conditions { friction, noise: self.noise };
+            let conditions = Conditions { friction, noise: self.noise, ..Conditions::default() };
             if !all.contains(&conditions) {
                 all.push(conditions);
             }

@@ -14,7 +14,7 @@ use super::progress::Progress;
 use super::provenance::of_trials;
 use super::report_folder::{ReportFolder, say};
 use super::values::parse_repeats;
-use vibrissa_lab::built_in::SCENARIOS;
+use vibrissa_lab::built_in::{PLAUSIBLE_MISMATCH, SCENARIOS};
 use vibrissa_lab::load::{self, LoadError, Loaded};
 use vibrissa_lab::report::{pareto_page, pareto_picture, pareto_table};
 use vibrissa_lab::results::Document;
@@ -52,7 +52,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
         None => (SCENARIOS[0].path.into(), load::built_in_scenario(&SCENARIOS[0])?),
     };
     let given = arguments.array.load(&mut files)?;
-    let given = if scene.mismatch.is_none() { given.or_plausible()? } else { given };
+    let given = if scene.mismatch.is_none() { given.or_built_in(PLAUSIBLE_MISMATCH)? } else { given };
     given.apply(&mut scene, &mut hash, 0).map_err(Failure::mismatch(&path))?;
     given.check_effect(std::iter::once(&scene)).map_err(LoadError::from)?;
     let policies = arguments.policies.load(&mut files)?;

@@ -4,6 +4,7 @@
 use vibrissa::diagnostic::{Colour, Source, terminal};
 use vibrissa::policy::compile_with_warnings;
 
+const LANGUAGE: &str = include_str!("../../docs/language.md");
 const TUTORIAL: &str = include_str!("../../docs/tutorial.md");
 #[cfg(feature = "sim")]
 const SEVERAL_OBJECTS: &str = include_str!("../../docs/howto/several-objects.md");
@@ -66,4 +67,28 @@ fn the_policy_for_several_objects_traces_them_in_both_worlds() {
             .unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
+}
+
+/// A direction that is not known yet makes a command that is not finite, which ends the run.
+#[test]
+fn every_machine_of_the_tour_of_the_language_drives_the_disk_with_finite_commands() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("tour");
+    std::fs::create_dir_all(&folder).unwrap();
+    let machines =
+        blocks(LANGUAGE, "fsm").into_iter().filter(|block| block.starts_with("machine") && !block.contains("test \""));
+    let mut runs = 0;
+    for (index, machine) in machines.enumerate() {
+        let policy = folder.join(format!("{index}.fsm"));
+        std::fs::write(&policy, machine).unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_vibrissa"))
+            .args(["run", "disk", "--simulator", "quasistatic", "--json", "--policy"])
+            .arg(&policy)
+            .output()
+            .unwrap();
+        let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let reason = result[0]["reason"].as_str().unwrap_or_default();
+        assert!(result[0]["outcome"].is_string() && !reason.contains("not finite"), "{reason}: {machine}");
+        runs += 1;
+    }
+    assert!(runs > 8);
 }

@@ -1,4 +1,7 @@
 //! Set-up, demonstration and checks of Vibrissa, one command each.
+//!
+//! A command has a file of its name and a line in `arguments.rs`. The checks of `cargo x test` are in `checks.rs`, the published
+//! pages in `results/pages.rs`, and their tables in `results/tables.rs`.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 #![allow(clippy::disallowed_methods, reason = "it writes what Git has an old version of, or prepares it aside")]
 

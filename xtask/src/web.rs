@@ -72,7 +72,7 @@ pub(crate) fn browse(root: &Path) -> Result<(), WebError> {
     let program = target_directory(root).join("debug/vibrissa").with_extension(env::consts::EXE_EXTENSION);
     let program = program.to_string_lossy().into_owned();
     let [bench, sweep] = ["bench", "sweep"].map(|name| reports.join(name).to_string_lossy().into_owned());
-    run(root, &program, &["bench", "--simulator", "quasistatic", "--out", &bench])?;
+    run(root, &program, &["bench", "--ideal", "--simulator", "quasistatic", "--out", &bench])?;
     run(root, &program, &["sweep", "web/test/sweep.yaml", "--out", &sweep])?;
     let pages = [bench, sweep].map(|directory| format!("{directory}/index.html"));
     let web = root.join("web");

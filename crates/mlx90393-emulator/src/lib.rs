@@ -3,6 +3,9 @@
 //! An [`EmulatedBus`] implements [`embedded_hal::i2c::I2c`]. It has [`EmulatedSensor`]s, a [`FieldSource`] with the true
 //! field, and an [`EmulatedClock`]. A transaction advances the clock by its own time.
 //!
+//! `sensor.rs` has modes and conversions, `registers.rs` the memory, and `bus.rs` the transactions and their time. A new fault is
+//! a variant in `fault.rs`. Nothing here uses the driver, because each tests the other.
+//!
 //! ```
 //! use embedded_hal::i2c::I2c;
 //! use vibrissa_mlx90393_emulator::{EmulatedBus, EmulatedSensor, SensorOptions};

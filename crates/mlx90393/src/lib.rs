@@ -3,6 +3,10 @@
 //! The driver is made for whisker arrays: several sensors on one bus, each read several hundred times a second. Every
 //! method borrows the bus, so sensors can share it. A [`Sensor::read`] is one transaction and never sleeps.
 //!
+//! `sensor.rs` has the transactions, `register.rs` and `settings.rs` the registers, `status.rs` and `measurement.rs` what a read
+//! means. A new setting is a field of [`Settings`] with its check in `checked_settings.rs`. The emulator shares no code with the
+//! driver, so that each tests the other: change both.
+//!
 //! ```
 //! use embedded_hal_mock::eh1::{delay::NoopDelay, i2c::{Mock, Transaction}};
 //! use vibrissa_mlx90393::{Address, Axis, ReadError, Sensor, Settings};

@@ -17,7 +17,7 @@ use std::fmt::{self, Write};
 use vibrissa_runtime::math;
 use vibrissa_runtime::rig::{Platform, Rig, Shaft, Whisker};
 use vibrissa_world::geometry::{Point2, Pose, Vector2, unit};
-use vibrissa_world::physics::{Physics, ShaftModel, Solver, link_inertia};
+use vibrissa_world::physics::{GRAVITY, Physics, ShaftModel, Solver, link_inertia, weight_moment};
 
 use super::contacts::{Contacts, friction_stiffness};
 use super::prune::Scope;
@@ -25,8 +25,6 @@ use vibrissa_world::solid::{Part, PartsError, Solid, convex_parts};
 
 /// Half of the height (m) of the platform, and of objects in a planar simulation. There, any height is possible.
 const HALF_HEIGHT: f64 = 0.01;
-/// Gravitational acceleration (m/s²).
-const GRAVITY: f64 = 9.81;
 /// The height (m) by which the farthest vertex of a prism is lowered. Hundreds of coplanar vertices would slow down the
 /// computation of faces, and later the support function.
 const DOME: f64 = 1e-3;
@@ -336,12 +334,7 @@ fn angles_at_rest(whisker: &Whisker, model: ShaftModel) -> String {
         ShaftModel::Chain => " 0".repeat(1 + shaft.links),
         ShaftModel::Cable => format!(" 0{}", " 1 0 0 0".repeat(shaft.links.saturating_sub(1))),
         ShaftModel::SpatialChain => {
-            let moment = |joint: usize| {
-                let weights = (joint..shaft.links).map(|link| {
-                    (link as f64 + 0.5 - joint as f64) * shaft.link_length() * shaft.link_mass(link) * GRAVITY
-                });
-                weights.sum::<f64>() * unit(whisker.pitch).x
-            };
+            let moment = |joint: usize| weight_moment(shaft, joint) * unit(whisker.pitch).x;
             let mut angles = format!(" 0 {}", moment(0) / whisker.hinge.stiffness);
             for (link, in_plane) in shaft.joint_stiffnesses().enumerate() {
                 angles.push_str(" 0");

@@ -3,7 +3,7 @@
 //! A [`control::Control`] takes the samples of one control period and returns the command for the next. Inside, [`percept`]
 //! estimates contacts, [`machine`] evaluates the compiled policy, and [`motion`] converts its action to a command.
 //!
-//! This crate contains no compiler, no scenario reader and no simulator. They are in the crate `vibrissa`.
+//! This crate contains no compiler, no scenario reader and no simulator. *Where to begin* is at the end of this page.
 //!
 //! # The control loop
 //!

@@ -6,7 +6,7 @@
 //! # Where to begin
 //!
 //! A value with a new form is a function of `value.rs`. The messages for unknown words and wrong types are in
-//! `reader.rs`. The keys of a rig are not here: they are entries of the crate `declare`.
+//! `reader.rs`, and those for numbers and units in `number.rs`. The keys of a rig are not here: they are entries of the crate `declare`.
 
 mod calibration;
 pub mod fault;

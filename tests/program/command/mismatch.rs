@@ -243,7 +243,7 @@ fn a_seed_without_effect_is_an_error() {
     let directory = directory("mismatch_seeds");
     let fixed = file(&directory, "fixed.yaml", "stiffness: 5 %\n");
     let noisy = file(&directory, "noisy.yaml", "sensor: {noise: 0.1 urad}\n");
-    let (run, bench) = (&["run", "scenarios/disk.yaml"][..], &["bench"][..]);
+    let (run, bench) = (&["run", "scenarios/disk.yaml"][..], &["bench", "--ideal"][..]);
     let refused = |command: &[&str], options: &[&str], of: &str| {
         let output = vibrissa(&[command, options].concat());
         assert_eq!(output.status.code(), Some(2), "{command:?} {options:?}");
@@ -358,7 +358,7 @@ fn an_array_that_is_not_calibrated_needs_a_mismatch() {
     for command in [
         &["run", "disk"][..],
         &["compare", "thesis", "vibrissa", "disk"],
-        &["bench"],
+        &["bench", "--ideal"],
         &["families", "convex-corner", "--count", "1"],
     ] {
         let output = vibrissa(&[command, &["--uncalibrated", "--simulator", "quasistatic"]].concat());

@@ -125,7 +125,7 @@ fn the_changes_since_an_older_bench_need_that_bench() {
     let directory = directory("report-older");
     fs::write(directory.join("results.json"), "[{\"format\": \"tick\"}]").unwrap();
     let [older, out] = [directory.clone(), directory.join("new")].map(|path| path.display().to_string());
-    let output = vibrissa(&["bench", "--out", &out, "--against", &older, "--simulator", "quasistatic"]);
+    let output = vibrissa(&["bench", "--ideal", "--out", &out, "--against", &older, "--simulator", "quasistatic"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("is no older report"), "{}", stderr(&output));
     assert!(!Path::new(&out).exists(), "the bench ran before the error");

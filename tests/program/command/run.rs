@@ -373,7 +373,7 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
     fn the_bench_runs_its_scenes_and_reports_them() {
         let out = directory("bench");
         let shown = out.display().to_string();
-        let output = vibrissa(&["bench", "--out", &shown, "--json", "--jobs", "2"]);
+        let output = vibrissa(&["bench", "--ideal", "--out", &shown, "--json", "--jobs", "2"]);
         let rows: Value = serde_json::from_str(&stdout(&output)).unwrap();
         let rows = rows.as_array().unwrap();
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

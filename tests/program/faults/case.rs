@@ -137,7 +137,9 @@ pub(super) const FAMILIES: Case = Case {
 pub(super) const BENCH: Case = Case {
     name: "bench",
     prepare: policy,
-    arguments: |folder| words("bench --policy @/quick.fsm --simulator quasistatic --jobs 1 --out @/out", folder),
+    arguments: |folder| {
+        words("bench --ideal --policy @/quick.fsm --simulator quasistatic --jobs 1 --out @/out", folder)
+    },
     old,
     is_long: true,
 };

@@ -103,7 +103,7 @@ fn who_retrieves_nothing_is_not_worse_at_it_and_a_foreign_scene_has_only_to_comp
 
 #[test]
 fn a_run_under_harder_conditions_has_only_to_complete_and_says_what_they_are() {
-    let conditions = Conditions { friction: 0.3, noise: true };
+    let conditions = Conditions { friction: 0.3, noise: true, round: false };
     let worse = BenchRow::new(result("disk", 2e-3));
     assert!(!worse.passed && !worse.clone().under(Conditions::default()).passed);
     let hard = worse.clone().under(conditions);
@@ -127,7 +127,7 @@ fn a_run_with_a_mismatch_has_only_to_complete_and_says_so() {
 
 #[test]
 fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_change_nothing() {
-    let friction = Conditions { friction: 0.1, noise: false };
+    let friction = Conditions { friction: 0.1, ..Conditions::default() };
     for file in SCENARIOS {
         let scene = scenario::read(&Source::new(file.path, file.text)).unwrap();
         let mut harder = scene.clone();

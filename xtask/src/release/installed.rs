@@ -30,7 +30,7 @@ pub(super) fn check(places: &Places) -> Result<(), ReleaseError> {
     let bench = folder.join("bench.json");
     let output = fs::File::create(&bench).map_err(disk("write", &bench))?;
     let mut command = alone(program.as_os_str(), &folder);
-    command.args(["bench", "--json"]).stdout(output).stderr(Stdio::null());
+    command.args(["bench", "--ideal", "--json"]).stdout(output).stderr(Stdio::null());
     succeed(command, "vibrissa")?;
     wheel(places, &folder, &bench)?;
 

@@ -309,14 +309,14 @@ mod tests {
     #[test]
     fn a_command_depends_on_the_scenes_policies_and_libraries_that_it_runs() -> Result<(), StampError> {
         let of = |command: &str| files(root(), &[command]);
-        let bench = of("bench --json")?;
+        let bench = of("bench --ideal --json")?;
         assert!(BENCH.iter().all(|scene| bench.contains(&format!("scenarios/{scene}.yaml"))));
         for file in ["policies/thesis.fsm", "policies/vibrissa.fsm", "policies/std/following.fsm"] {
             assert!(bench.contains(file), "{file}");
         }
         // The library of a library.
         assert!(bench.contains("policies/std/search.fsm"));
-        let other = of("bench --policy policies/quick.fsm --json")?;
+        let other = of("bench --ideal --policy policies/quick.fsm --json")?;
         assert!(other.contains("policies/lib/contact.fsm") && !other.contains("policies/vibrissa.fsm"));
         let own = of("run scenarios/more/peer-disk.yaml --json")?;
         assert!(own.contains("policies/thesis.fsm"), "the policy that the scenario names");
@@ -336,7 +336,7 @@ mod tests {
         let named: Vec<&str> = built_in.split('"').filter(is_scene).collect();
         let scenes: Vec<String> = BENCH.map(|scene| format!("scenarios/{scene}.yaml")).into();
         assert_eq!(named[..BENCH.len()], scenes);
-        assert_eq!(named.last(), Some(&PLAUSIBLE));
+        assert!(named.contains(&PLAUSIBLE));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::tables::{names, those};
 use crate::json::Json;
 
 /// The runs of the bench: without a mismatch, and then with each array, first calibrated and then not.
-pub(super) const BENCHES: [&str; 5] =
+const BENCHES: [&str; 5] =
     ["ideal", "plausible, calibrated", "plausible, uncalibrated", "hard, calibrated", "hard, uncalibrated"];
 
 /// The page, from the outputs of [`BENCHES`] and the summary of a sweep.

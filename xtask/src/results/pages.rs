@@ -107,7 +107,7 @@ pub(super) const PAGES: [Page; 17] = [
         name: "bench",
         title: "Results of the bench",
         about: "The ten scenes of [the bench](../bench.md) under both built-in policies, in both [simulators](../worlds.md).",
-        commands: &["bench --json", "bench --world quasistatic --json"],
+        commands: &["bench --ideal --json", "bench --ideal --world quasistatic --json"],
         code: &[],
         has_times: false,
         is_slow: false,
@@ -117,7 +117,10 @@ pub(super) const PAGES: [Page; 17] = [
         name: "timing",
         title: "Run times",
         about: "[Speed](../bench.md#vibrissa-study-timing---repeats-n) of both simulators, medians of three runs of each scene.",
-        commands: &["study timing --repeats 3 --json", "study timing --repeats 3 --world quasistatic --json"],
+        commands: &[
+            "study timing --ideal --repeats 3 --json",
+            "study timing --ideal --repeats 3 --world quasistatic --json",
+        ],
         code: &["crates/lab/src/study/timing.rs"],
         has_times: true,
         is_slow: false,
@@ -165,7 +168,7 @@ pub(super) const PAGES: [Page; 17] = [
         title: "Results of the other policies",
         about: "The [policies](../policies.md) that are not in the bench, other rigs, and a comparison from displaced starts.",
         commands: &[
-            "bench --policy policies/quick.fsm --policy policies/tilted.fsm --policy policies/reverse.fsm --policy policies/baseline.fsm --json",
+            "bench --ideal --policy policies/quick.fsm --policy policies/tilted.fsm --policy policies/reverse.fsm --policy policies/baseline.fsm --json",
             "run scenarios/more/array-octagon.yaml scenarios/more/array-box.yaml scenarios/more/array-prism.yaml --json",
             "run scenarios/more/peer-disk.yaml --json",
             "run scenarios/more/peer-box.yaml scenarios/more/peer-octagon.yaml --json",
@@ -191,7 +194,7 @@ pub(super) const PAGES: [Page; 17] = [
         title: "Reproduction of the baseline",
         about: "The claims of the [baseline](../glossary.md#baseline), with their sections, beside the measured figures of both built-in policies in MuJoCo.",
         commands: &[
-            "bench --json",
+            "bench --ideal --json",
             claimed_scenes!("thesis"),
             claimed_scenes!("vibrissa"),
             "sweep sweeps/turns.yaml --out out/turns --json",
@@ -257,7 +260,7 @@ pub(super) const PAGES: [Page; 17] = [
         title: "Results with mismatches",
         about: "The scenes of [the bench](../bench.md) in MuJoCo with a [mismatch](../mismatch.md) between the true array and the assumed one.",
         commands: &[
-            "bench --json",
+            "bench --ideal --json",
             "bench --mismatch scenarios/mismatch/plausible.yaml --json",
             "bench --mismatch scenarios/mismatch/plausible.yaml --uncalibrated --json",
             "bench --mismatch scenarios/mismatch/hard.yaml --json",

@@ -1,6 +1,5 @@
-//! The table of README.md, from the pages of the bench and of the mismatches.
+//! The table of README.md, from the pages of the bench and of real arrays.
 
-use super::mismatch::BENCHES;
 use super::stamp::Stamp;
 
 /// The beginning of the line above the table: what it was made from.
@@ -8,17 +7,17 @@ const MADE_FROM: &str = "<!-- the table below is made from";
 
 /// The headings of the columns with figures. The first two columns, scene and baseline, are written by hand.
 const HEADINGS: [&str; 5] = [
+    "`thesis.fsm`, real arrays",
+    "`vibrissa.fsm`, real arrays",
+    "coverage, `vibrissa.fsm`, real arrays",
     "`thesis.fsm`, ideal array",
-    "`thesis.fsm`, plausible array",
     "`vibrissa.fsm`, ideal array",
-    "`vibrissa.fsm`, plausible array",
-    "coverage, `vibrissa.fsm`, ideal array",
 ];
 /// The figure of a page that has none.
 const NONE: &str = "–";
 
 /// README.md with the figures of the pages in its table. `None` if it has no table of scenes.
-pub(super) fn with_figures(readme: &str, bench: &str, mismatch: &str) -> Option<String> {
+pub(super) fn with_figures(readme: &str, bench: &str, real: &str) -> Option<String> {
     let lines: Vec<_> = readme.lines().collect();
     let first = lines.iter().position(|line| line.starts_with("| scene |"))?;
     let rows: Vec<_> = lines[first..].iter().take_while(|line| line.starts_with('|')).copied().collect();
@@ -29,7 +28,7 @@ pub(super) fn with_figures(readme: &str, bench: &str, mismatch: &str) -> Option<
             1 => return format!("|{}", "---|".repeat(2 + HEADINGS.len())),
             _ => {
                 let scene = cells.first().map(|name| name.replace(' ', "-")).unwrap_or_default();
-                cells.extend(figures(&scene, bench, mismatch));
+                cells.extend(figures(&scene, bench, real));
             }
         }
         format!("| {} |", cells.join(" | "))
@@ -37,23 +36,33 @@ pub(super) fn with_figures(readme: &str, bench: &str, mismatch: &str) -> Option<
     let before = lines[..first].iter().filter(|line| !line.starts_with(MADE_FROM));
     let after = &lines[first + rows.len()..];
     let hash = |page| Stamp::read(page).map_or_else(|| "without a stamp".to_owned(), |stamp| stamp.hash());
-    let (bench, mismatch) = (hash(bench), hash(mismatch));
-    let stamp = format!("{MADE_FROM} docs/results/bench.md, {bench}, and docs/results/mismatch.md, {mismatch} -->");
+    let (bench, real) = (hash(bench), hash(real));
+    let stamp = format!("{MADE_FROM} docs/results/bench.md, {bench}, and docs/results/real.md, {real} -->");
     let all = before.map(|line| (*line).to_owned()).chain([stamp]).chain(table);
     let all: Vec<_> = all.chain(after.iter().map(|line| (*line).to_owned())).collect();
     Some(all.join("\n") + "\n")
 }
 
-/// The figures of a scene in the order of [`HEADINGS`]. A run that is not complete has its outcome instead of its error.
-fn figures(scene: &str, bench: &str, mismatch: &str) -> [String; 5] {
+/// The figures of a scene in the order of [`HEADINGS`]. An ideal run that is not complete has its outcome instead of its error. The
+/// error of real arrays has the number of incomplete runs, if there are any.
+fn figures(scene: &str, bench: &str, real: &str) -> [String; 5] {
     let of_bench = |policy: &str, heading| find(bench, "", &[scene, &format!("`{policy}`")], heading);
-    let of_array = |policy: &str| find(mismatch, &format!("## Arrays under `{policy}.fsm`"), &[scene], BENCHES[1]);
+    let of_arrays = |policy: &str, heading| find(real, &format!("## `{policy}.fsm`"), &[scene], heading);
+    let real_error = |policy: &str| {
+        let error = of_arrays(policy, "mean error, mm")?;
+        let incomplete =
+            ["ended", "others"].iter().filter_map(|heading| of_arrays(policy, heading)?.parse::<u32>().ok());
+        Some(match incomplete.sum::<u32>() {
+            0 => error,
+            incomplete => format!("{error}, {incomplete} incomplete"),
+        })
+    };
     let error = |policy: &str| match of_bench(policy, "outcome") {
         Some(outcome) if outcome != "completed" => Some(outcome),
         _ => of_bench(policy, "mean error, mm"),
     };
-    let coverage = of_bench("vibrissa", "coverage, %").map(|coverage| format!("{coverage} %"));
-    let figures = [error("thesis"), of_array("thesis"), error("vibrissa"), of_array("vibrissa"), coverage];
+    let coverage = of_arrays("vibrissa", "coverage, %").map(|coverage| format!("{coverage} %"));
+    let figures = [real_error("thesis"), real_error("vibrissa"), coverage, error("thesis"), error("vibrissa")];
     figures.map(|figure| figure.unwrap_or_else(|| NONE.to_owned()))
 }
 
@@ -94,8 +103,8 @@ mod tests {
         let bench = "| scene | policy | radius |\n|---|---|---|\n| round-tunnel | `thesis` | 7 |\n\n\
                      | scene | policy | mean error, mm | coverage, % |\n|---|---|---|---|\n\
                      | round-tunnel | `thesis` | 0.4 | 95 |\n| round-tunnel | `vibrissa` | 0.2 | 96 |\n";
-        let table = |mismatch| {
-            let readme = with_figures(README, bench, mismatch).unwrap_or_default();
+        let table = |real| {
+            let readme = with_figures(README, bench, real).unwrap_or_default();
             assert!(
                 readme.starts_with("# A\n\n<!-- the table")
                     && readme.ends_with("|\n\nB\n")
@@ -103,19 +112,19 @@ mod tests {
             );
             readme.lines().nth(5).map(str::to_owned).unwrap_or_default()
         };
-        assert_eq!(table(""), "| round tunnel | about 3 | 0.4 | – | 0.2 | – | 96 % |");
-        let array = |policy: &str, error: &str| {
+        assert_eq!(table(""), "| round tunnel | about 3 | – | – | – | 0.4 | 0.2 |");
+        let arrays = |policy: &str, error: &str, ended: u32| {
             format!(
-                "## Arrays under `{policy}.fsm`\n\n| scene | ideal | {} |\n|---|---|---|\n| round-tunnel | 1 | {error} |\n",
-                BENCHES[1]
+                "## `{policy}.fsm`\n\n| scene | mean error, mm | coverage, % | ended | others |\n|---|---|---|---|---|\n\
+                 | round-tunnel | {error} | 97 | {ended} | 1 |\n"
             )
         };
-        let mismatch = array("thesis", "0.8") + &array("vibrissa", "timeout");
-        assert_eq!(table(&mismatch), "| round tunnel | about 3 | 0.4 | 0.8 | 0.2 | timeout | 96 % |");
+        let real = arrays("thesis", "0.8", 2) + &arrays("vibrissa", "0.3", 0).replace("| 1 |", "| 0 |");
+        assert_eq!(table(&real), "| round tunnel | about 3 | 0.8, 3 incomplete | 0.3 | 97 % | 0.4 | 0.2 |");
         assert_eq!(with_figures("no table", bench, ""), None);
         // A second time, there is still one stamp.
-        let once = with_figures(README, bench, &mismatch).unwrap_or_default();
-        assert_eq!(with_figures(&once, bench, &mismatch), Some(once));
+        let once = with_figures(README, bench, &real).unwrap_or_default();
+        assert_eq!(with_figures(&once, bench, &real), Some(once));
     }
 
     #[test]
@@ -124,7 +133,7 @@ mod tests {
                      | round-tunnel | `thesis` | ended | 0.4 | 50 |\n| round-tunnel | `vibrissa` | completed | 0.2 | 96 |\n";
         let stamped = |hash: &str| format!("{bench}\n<!-- made from\na.fsm {hash}\n-->\n");
         let readme = |hash| with_figures(README, &stamped(hash), "").unwrap_or_default();
-        assert!(readme("1").contains("| round tunnel | about 3 | ended | – | 0.2 | – | 96 % |\n"), "{}", readme("1"));
+        assert!(readme("1").contains("| round tunnel | about 3 | – | – | – | ended | 0.2 |\n"), "{}", readme("1"));
         assert_ne!(readme("1"), readme("2"));
     }
 

@@ -148,8 +148,8 @@ mod tests {
     fn figures_of_a_simulator_that_a_page_does_not_use_do_not_matter() {
         let names = |command: &str, file: &str| figures(&[command], &[file.to_owned()].into());
         let [thesis, vibrissa] = inputs::POLICIES;
-        assert_eq!(names("bench --json", thesis), ["snapshots/metrics/thesis-mujoco.txt"]);
-        assert_eq!(names("bench --world quasistatic --json", vibrissa).len(), 2);
+        assert_eq!(names("bench --ideal --json", thesis), ["snapshots/metrics/thesis-mujoco.txt"]);
+        assert_eq!(names("bench --ideal --world quasistatic --json", vibrissa).len(), 2);
         assert_eq!(names("study worlds --against quasistatic --json", vibrissa).len(), 4);
     }
 }

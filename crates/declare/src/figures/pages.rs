@@ -19,7 +19,10 @@ fn the_table_of_all_figures_is_up_to_date() {
     if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
         std::fs::write(PAGE, &wanted).unwrap_or_else(|cause| panic!("{PAGE}: {cause}"));
     } else {
-        assert!(found == wanted, "docs/metrics.md is stale; run `INSTA_UPDATE=always cargo test --lib figures`");
+        assert!(
+            found == wanted,
+            "docs/metrics.md is stale; run `INSTA_UPDATE=always cargo test --workspace --lib figures`"
+        );
     }
 }
 

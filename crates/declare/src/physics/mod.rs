@@ -7,6 +7,7 @@ mod physics;
 mod preset;
 mod shaft_model;
 mod solver;
+mod weight;
 
 pub use inertia::{MIN_INERTIA, light_shaft, link_inertia};
 pub use integrator::Integrator;
@@ -14,3 +15,4 @@ pub use physics::Physics;
 pub use preset::Preset;
 pub use shaft_model::ShaftModel;
 pub use solver::Solver;
+pub use weight::{GRAVITY, sag, weight_moment};

@@ -10,7 +10,7 @@ use super::seed::{WithoutEffect, check_mismatch_seed};
 use super::sought::Sought;
 use super::text::{SIZE_LIMIT, name, text};
 use super::{LoadError, Loaded};
-use crate::built_in::PLAUSIBLE_MISMATCH;
+use crate::built_in::TextFile;
 use crate::calibration::{ArrayCalibrationError, ArrayCalibrations};
 use crate::trial::{Inputs, Trial, TrialFault, short_hash};
 use vibrissa_text::diagnostic::Source;
@@ -56,12 +56,18 @@ impl GivenMismatch {
         Self { calibrations: self.calibrations.filter(|_| !uncalibrated), ..self }
     }
 
-    /// The same, with the built-in plausible array if no file is given.
+    /// True if no file is given.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.file.is_none()
+    }
+
+    /// The same, with a built-in array if no file is given.
     ///
     /// # Errors
     /// [`LoadError`] if a file cannot be read or its text has errors.
-    pub fn or_plausible(self) -> Result<Self, LoadError> {
-        let built_in = || mismatch_in(Source::new(PLAUSIBLE_MISMATCH.path, PLAUSIBLE_MISMATCH.text));
+    pub fn or_built_in(self, array: TextFile) -> Result<Self, LoadError> {
+        let built_in = || mismatch_in(Source::new(array.path, array.text));
         Ok(Self { file: Some(self.file.map_or_else(built_in, Ok)?), ..self })
     }
 

@@ -26,7 +26,10 @@ fn the_reference_page_is_up_to_date() {
         std::fs::write(PAGE, &page).unwrap_or_else(|cause| panic!("{PAGE}: {cause}"));
     }
     let found = std::fs::read_to_string(PAGE).unwrap_or_default();
-    assert!(found == page, "docs/reference.md is stale; run `INSTA_UPDATE=always cargo test --lib reference`");
+    assert!(
+        found == page,
+        "docs/reference.md is stale; run `INSTA_UPDATE=always cargo test --workspace --lib reference`"
+    );
 }
 
 fn page() -> String {
@@ -36,7 +39,7 @@ fn page() -> String {
 The types, members, functions and words of policies. [The tour of the language](language.md) explains how to use them.
 
 A test generates this page from the tables of the compiler. To change it, change the tables, and run
-`INSTA_UPDATE=always cargo test --lib reference`.
+`INSTA_UPDATE=always cargo test --workspace --lib reference`.
 
 Unless stated otherwise, positions and directions are in the world frame (x right, y up).
 

@@ -16,6 +16,10 @@ fn the_fixtures_of_the_runtime_are_the_compiled_policies() {
             std::fs::write(&path, &compiled).unwrap();
         }
         let found = std::fs::read(&path).unwrap_or_default();
-        assert!(found == compiled, "{} is stale; run `INSTA_UPDATE=always cargo test --test policy`", path.display());
+        assert!(
+            found == compiled,
+            "{} is stale; run `INSTA_UPDATE=always cargo test --workspace --test policy`",
+            path.display()
+        );
     }
 }
