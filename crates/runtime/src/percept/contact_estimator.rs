@@ -30,6 +30,10 @@ pub trait ContactEstimator: Debug + Send + Sync + Boxed {
     /// free air has another noise than the rig states. The default, for estimators without uncertainty, does nothing.
     fn set_noise(&mut self, _noise: f64) {}
 
+    /// Sets the standard deviation (rad) of the offset of the readings, which grows while the whisker touches. The default, for
+    /// estimators without uncertainty, does nothing.
+    fn set_offset_deviation(&mut self, _deviation: f64) {}
+
     /// Returns the current contact for the filtered base angle `base_angle` (rad) and the pose `base` of the base, or
     /// `None` if it cannot be estimated.
     fn contact(&mut self, base_angle: f64, base: Pose) -> Option<Contact>;

@@ -91,6 +91,12 @@ impl Offsets {
         if self.is_known { self.state[2 * whisker] * MICRO } else { 0.0 }
     }
 
+    /// Standard deviation (rad) of the error of [`Self::value`]. It grows while a whisker is in contact.
+    pub(super) fn deviation(&self, whisker: usize) -> f64 {
+        let ignored = if self.is_known { 0.0 } else { self.state[2 * whisker] };
+        math::hypot(ignored, math::max(self.covariance[2 * whisker][2 * whisker], 0.0).sqrt()) * MICRO
+    }
+
     /// Continues the drift for `period` (s).
     pub(super) fn predict(&mut self, period: f64) {
         let states = 2 * self.count + 1;

@@ -327,6 +327,7 @@ impl Perception {
         for (whisker, index) in fitted(&mut self.whiskers, &self.in_sample) {
             let free = whisker.free_reading(&acceleration);
             offsets.add(index, free);
+            whisker.set_offset_deviation(offsets.deviation(index));
             if let Some((motions, FreeReading { reading, deviation, .. })) = self.motions.as_mut().zip(free) {
                 let offset = offsets.value(index);
                 motions.add_free(reading - offset, deviation, |acceleration| whisker.bent_by(acceleration));

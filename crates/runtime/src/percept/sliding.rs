@@ -369,6 +369,12 @@ impl ContactEstimator for Sliding {
         self.rest.set_deviation(self.angle.deviation);
     }
 
+    fn set_offset_deviation(&mut self, deviation: f64) {
+        if let Some(bias) = &mut self.bias {
+            bias.set_offset_deviation(deviation);
+        }
+    }
+
     fn contact(&mut self, _: f64, base: Pose) -> Option<Contact> {
         let contact = self.sliding_contact()?;
         Some(Contact {

@@ -15,6 +15,8 @@ use super::tip_table::{TipPosition, TipTable};
 #[derive(Debug, Clone)]
 pub(super) struct TipBias {
     covariance: SMatrix<f64, { Parameter::KEPT }, { Parameter::KEPT }>,
+    /// Variance (rad²) of the offset that is estimated during the run, beyond that in the covariance.
+    offset_variance: f64,
     length: f64,
     direction_body: f64,
     /// The tips of the whisker, of one that is more curved, and of one that is more tapered, for bends to the left.
@@ -26,7 +28,7 @@ pub(super) struct TipBias {
 /// Differences of curvature (1/m) and taper for derivatives.
 const CURVATURE: f64 = 0.02;
 const TAPER: f64 = -0.005;
-/// Standard deviation (rad) of an offset that is estimated during the run.
+/// Least standard deviation (rad) of an offset that is estimated during the run.
 const ESTIMATED_OFFSET: f64 = 5e-7;
 
 impl TipBias {
@@ -48,12 +50,18 @@ impl TipBias {
         }
         Some(Self {
             covariance,
+            offset_variance: 0.0,
             length: whisker.shaft.length,
             direction_body: whisker.direction_body,
             table: TipTable::shared(whisker),
             curved: TipTable::shared(&curved),
             tapered: TipTable::shared(&tapered),
         })
+    }
+
+    /// Sets the standard deviation (rad) of the offset that is estimated during the run.
+    pub(super) fn set_offset_deviation(&mut self, deviation: f64) {
+        self.offset_variance = math::max(math::square(deviation) - math::square(ESTIMATED_OFFSET), 0.0);
     }
 
     /// Standard deviation of the surface at the tip (m, along its normal). The directions `force` and `normal` (rad) are
@@ -87,7 +95,8 @@ impl TipBias {
         set(Parameter::Offset, -bend_sign * by_angle);
         // Friction turns the force by its angle.
         set(Parameter::Friction, -across.dot(&tip.by_direction) / (1.0 + math::square(math::tan(normal - force))));
-        math::max(slope.dot(&(self.covariance * slope)), 0.0).sqrt()
+        let offset = slope[Parameter::Offset.index()];
+        math::max(slope.dot(&(self.covariance * slope)) + math::square(offset) * self.offset_variance, 0.0).sqrt()
     }
 }
 

@@ -276,6 +276,11 @@ impl PerceivedWhisker {
         }
     }
 
+    /// Sets the standard deviation (rad) of the offset of the readings.
+    pub(super) fn set_offset_deviation(&mut self, deviation: f64) {
+        self.estimator.set_offset_deviation(deviation);
+    }
+
     /// Records a mark, at most once per tick.
     pub(super) fn mark(&mut self, mark: Mark) {
         if !self.marks.contains(&Some(mark))
