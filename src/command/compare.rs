@@ -12,7 +12,8 @@ use super::options::{ArrayOptions, Format, Jobs, WorldOptions};
 use super::output;
 use super::provenance::of_runs;
 use super::report_folder::{ReportFolder, say};
-use super::trials::{inputs, run_all};
+use super::trial_runs::run_all;
+use super::trials::inputs;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use vibrissa_lab::built_in::{SCENARIOS, TextFile};
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
@@ -78,7 +79,8 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let loaded = policies.iter().map(|path| load::policy(path, &mut read)).collect::<Result<Vec<_>, _>>()?;
     let settings = settings(&scenarios, &array, arguments, &mut read)?;
     array.check_effect(settings.iter().map(|setting| &setting.scene)).map_err(LoadError::from)?;
-    let report = ReportFolder::new(arguments.out.as_deref(), [COMPARISON, RESULTS].map(str::to_owned), &mut read)?;
+    let report =
+        ReportFolder::new("compare", arguments.out.as_deref(), [COMPARISON, RESULTS].map(str::to_owned), &mut read)?;
     let mut trials = Vec::with_capacity(policies.len() * settings.len());
     for policy in &loaded {
         output::warnings(&policy.value);
@@ -89,7 +91,8 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
             trials.push(Trial { world: arguments.world.of(scene), inputs, ..trial });
         }
     }
-    let mut results = run_all(&trials, &array, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
+    let results = run_all(&trials, &array, arguments.jobs, report.as_ref(), |_| false)?;
+    let mut results = results.into_iter().map(|finished| finished.result);
     let runs: Vec<_> = policies
         .iter()
         .map(|path| {

@@ -13,7 +13,8 @@ use super::options::{ArrayOptions, FamilyValues, Format, Jobs, Settings, WorldOp
 use super::output;
 use super::provenance::of_runs;
 use super::report_folder::{ReportFolder, say};
-use super::trials::{Finished, report_dead_whiskers, run_all};
+use super::trial_runs::run_all;
+use super::trials::{Finished, report_dead_whiskers};
 use super::values::{parse_runs, parse_seed};
 use vibrissa_lab::built_in::DEFAULT_POLICY;
 use vibrissa_lab::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
@@ -100,9 +101,9 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     mismatch.check_effect(trials.iter().map(|trial| &trial.scene)).map_err(LoadError::from)?;
     let names: Vec<String> = scenes.iter().map(|scene| format!("{}.svg", scene.draw.scene.name)).collect();
     let all = names.iter().cloned().chain([RESULTS.to_owned()]);
-    let report = ReportFolder::new(arguments.out.as_deref(), all, &mut files)?;
+    let report = ReportFolder::new("families", arguments.out.as_deref(), all, &mut files)?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
-    let finished = run_all(&trials, &mismatch, arguments.jobs, is_drawn)?;
+    let finished = run_all(&trials, &mismatch, arguments.jobs, report.as_ref(), is_drawn)?;
     let (runs, pictures) = with_verdicts(scenes, finished);
     let provenance = of_families(&runs, arguments);
     let tallies = tallies(&families, &runs);
@@ -199,8 +200,8 @@ fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failur
 fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
     let rows = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
         let Drawn { family, number: trial, draw } = drawn;
-        let Finished { result, violations, figures } = finished;
-        let passed = violations.is_empty();
+        let Finished { result, figures } = finished;
+        let passed = result.violations.is_empty();
         let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
             report_run(&run);
