@@ -86,7 +86,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     plan.analysed_policies(&mut files)?.iter().for_each(output::warnings);
     plan.check(output::message)?;
     let sweep = &plan.sweep;
-    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
+    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(&sweep.name));
     make_directory(Some(&directory))?;
     let pictures = directory.join(PICTURES);
     if arguments.pictures != Pictures::None {
@@ -147,7 +147,7 @@ fn of_sweep(plan: &Plan) -> Result<Provenance, Failure> {
         add_seeds(&mut provenance.seeds, seeds);
     }
     for mismatch in &mut provenance.mismatches {
-        let most = plan.sweep.scenes().iter().map(|scenes| scenes.trials).max().unwrap_or(1);
+        let most = plan.sweep.scenes.iter().map(|scenes| scenes.trials).max().unwrap_or(1);
         if let Some(seeds) = mismatch.seeds.first_mut() {
             seeds.last = seeds.first.saturating_add(most.saturating_sub(1));
         }
