@@ -13,14 +13,13 @@ use super::output;
 use super::provenance::of_runs;
 use super::report_folder::{ReportFolder, say};
 use super::trial_runs::run_all;
-use super::trials::inputs;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use vibrissa_lab::built_in::{SCENARIOS, TextFile};
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
 use vibrissa_lab::report::{comparison_page, comparison_tables};
 use vibrissa_lab::results::{Document, JitterRecord, Provenance, RunResult, marked};
 use vibrissa_lab::study::compare::{Comparison, Incomplete, PolicyRuns};
-use vibrissa_lab::trial::Trial;
+use vibrissa_lab::trial::{Inputs, Trial};
 use vibrissa_text::file::CommandFiles;
 use vibrissa_world::scene::{Jitter, Scene};
 
@@ -86,7 +85,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
         output::warnings(&policy.value);
         let program = Arc::new(policy.value.artifact.program.clone());
         for Setting { path, scene, hash } in &settings {
-            let inputs = inputs(path, &hash.clone().finalize(), &policy.hash.clone().finalize());
+            let inputs = Inputs::new(path, hash.clone(), policy.hash.clone());
             let trial = Trial::new(scene.clone(), Arc::clone(&program));
             trials.push(Trial { world: arguments.world.of(scene), inputs, ..trial });
         }
@@ -183,5 +182,6 @@ fn settings(
 }
 
 fn started(path: &Path, scene: &Scene, jitter: &Jitter) -> Result<vibrissa_world::geometry::Pose, Failure> {
-    jitter.start(scene, scene.seed).ok_or_else(|| Failure::NoStart { scenario: path.to_owned() })
+    let reason = "almost no start within the jitter is collision-free; make --jitter smaller";
+    jitter.start(scene, scene.seed).ok_or_else(|| Failure::at(path)(reason))
 }

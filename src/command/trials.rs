@@ -17,7 +17,7 @@ use vibrissa_lab::results::{
     Collisions, Document, Ending, Failsafes, Inclination, ObjectFriction, Provenance, RunResult, WhiskerResponse,
 };
 use vibrissa_lab::run::{Trace, Watcher};
-use vibrissa_lab::trial::{Inputs, Trial, TrialResult, short_hash};
+use vibrissa_lab::trial::{Trial, TrialResult};
 use vibrissa_text::diagnostic::printable;
 use vibrissa_text::file::{CommandFiles, Output, OutputError};
 use vibrissa_world::scene::Violation;
@@ -53,16 +53,6 @@ pub(super) fn finished(trial: &Trial, is_drawn: impl Fn(&[Violation]) -> bool) -
 
 pub(super) fn drawn(trial: &Trial, result: &TrialResult) -> RunFigures {
     RunFigures::new(&trial.scene, &trial.policy_label(), &result.run, &result.score)
-}
-
-/// The inputs of a trial, by the path of its scenario and the hashes of scenario and policy.
-pub(super) fn inputs(path: &Path, scenario_hash: &[u8], policy_hash: &[u8]) -> Inputs {
-    Inputs {
-        scenario: path.to_owned(),
-        scenario_hash: short_hash(scenario_hash),
-        policy_hash: short_hash(policy_hash),
-        ..Inputs::default()
-    }
 }
 
 /// Runs a trial under a watcher, and shows a progress bar on standard error if that is a terminal.
