@@ -12,7 +12,8 @@ use super::options::{ArrayOptions, ConditionOptions, Format, Jobs, Policies, Wor
 use super::output;
 use super::provenance::of_runs;
 use super::report_folder::{ReportFolder, say};
-use super::trials::{Finished, report_dead_whiskers, run_all};
+use super::trial_runs::run_all;
+use super::trials::{Finished, report_dead_whiskers};
 use super::values::parse_seed;
 use vibrissa_lab::built_in::SCENARIOS;
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, check_noise_seed};
@@ -65,9 +66,9 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<Exit, Failure> {
     let older = arguments.against.as_deref().map(|path| older_runs(path, &mut files)).transpose()?;
     let pictures: Vec<String> = trials.iter().map(picture_name).collect();
     let names = pictures.iter().cloned().chain([RESULTS.to_owned()]);
-    let report = ReportFolder::new(arguments.out.as_deref(), names, &mut files)?;
+    let report = ReportFolder::new("bench", arguments.out.as_deref(), names, &mut files)?;
     let (conditions, trials): (Vec<_>, Vec<_>) = trials.into_iter().unzip();
-    let finished = run_all(&trials, &array, arguments.jobs, |_| arguments.out.is_some())?;
+    let finished = run_all(&trials, &array, arguments.jobs, report.as_ref(), |_| arguments.out.is_some())?;
     let (mut rows, mut figures) = (Vec::with_capacity(finished.len()), Vec::new());
     for (Finished { result, figures: drawn, .. }, conditions) in finished.into_iter().zip(conditions) {
         let row = BenchRow::new(result).under(conditions);

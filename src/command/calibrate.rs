@@ -232,7 +232,7 @@ fn counted(
     neutral: f64,
 ) -> Result<(Vec<ContactSet>, Option<BoardConfig>), Failure> {
     let found = Transducer::of(robot, whisker);
-    let (board, transducer) = found.map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
+    let (board, transducer) = found.map_err(Failure::at(path))?;
     let transducer = fit_field(whisker, sets, &Transducer { neutral, ..transducer })
         .ok_or_else(|| Failure::NoField { whisker: whisker.name.clone() })?;
     let board = BoardConfig { field_per_moment: transducer.magnet.field_per_moment, ..board.clone() };

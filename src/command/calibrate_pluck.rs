@@ -40,7 +40,7 @@ impl Document for PluckDocument {
 pub(super) fn calibrate_pluck(path: &Path, arguments: &CalibrateArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let (whisker, readings) = readings(path, arguments, &mut files)?;
-    let pluck = Pluck::of(&readings).map_err(|cause| Failure::Pluck { path: path.to_owned(), cause })?;
+    let pluck = Pluck::of(&readings).map_err(Failure::at(path))?;
     if arguments.format.json {
         let Pluck { first_mode, decay, misfit } = pluck;
         output::json(&provenance(), &PluckDocument { whisker, first_mode_hz: first_mode, decay_s: decay, misfit })?;

@@ -12,14 +12,14 @@ use super::options::{ArrayOptions, Format, Jobs, WorldOptions};
 use super::output;
 use super::provenance::of_runs;
 use super::report_folder::{ReportFolder, say};
-use super::trials::{inputs, run_all};
+use super::trial_runs::run_all;
 use super::values::{parse_jitter, parse_jitter_heading, parse_runs};
 use vibrissa_lab::built_in::{SCENARIOS, TextFile};
 use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded};
 use vibrissa_lab::report::{comparison_page, comparison_tables};
 use vibrissa_lab::results::{Document, JitterRecord, Provenance, RunResult, marked};
 use vibrissa_lab::study::compare::{Comparison, Incomplete, PolicyRuns};
-use vibrissa_lab::trial::Trial;
+use vibrissa_lab::trial::{Inputs, Trial};
 use vibrissa_text::file::CommandFiles;
 use vibrissa_world::scene::{Jitter, Scene};
 
@@ -78,18 +78,20 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<Exit, Failure> {
     let loaded = policies.iter().map(|path| load::policy(path, &mut read)).collect::<Result<Vec<_>, _>>()?;
     let settings = settings(&scenarios, &array, arguments, &mut read)?;
     array.check_effect(settings.iter().map(|setting| &setting.scene)).map_err(LoadError::from)?;
-    let report = ReportFolder::new(arguments.out.as_deref(), [COMPARISON, RESULTS].map(str::to_owned), &mut read)?;
+    let report =
+        ReportFolder::new("compare", arguments.out.as_deref(), [COMPARISON, RESULTS].map(str::to_owned), &mut read)?;
     let mut trials = Vec::with_capacity(policies.len() * settings.len());
     for policy in &loaded {
         output::warnings(&policy.value);
         let program = Arc::new(policy.value.artifact.program.clone());
         for Setting { path, scene, hash } in &settings {
-            let inputs = inputs(path, &hash.clone().finalize(), &policy.hash.clone().finalize());
+            let inputs = Inputs::new(path, hash.clone(), policy.hash.clone());
             let trial = Trial::new(scene.clone(), Arc::clone(&program));
             trials.push(Trial { world: arguments.world.of(scene), inputs, ..trial });
         }
     }
-    let mut results = run_all(&trials, &array, arguments.jobs, |_| false)?.into_iter().map(|finished| finished.result);
+    let results = run_all(&trials, &array, arguments.jobs, report.as_ref(), |_| false)?;
+    let mut results = results.into_iter().map(|finished| finished.result);
     let runs: Vec<_> = policies
         .iter()
         .map(|path| {
@@ -180,5 +182,6 @@ fn settings(
 }
 
 fn started(path: &Path, scene: &Scene, jitter: &Jitter) -> Result<vibrissa_world::geometry::Pose, Failure> {
-    jitter.start(scene, scene.seed).ok_or_else(|| Failure::NoStart { scenario: path.to_owned() })
+    let reason = "almost no start within the jitter is collision-free; make --jitter smaller";
+    jitter.start(scene, scene.seed).ok_or_else(|| Failure::at(path)(reason))
 }

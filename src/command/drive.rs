@@ -6,7 +6,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use clap::{Arg, Args};
-use sha2::Digest;
 use vibrissa_robot::admission::{Admission, Device, admit};
 use vibrissa_robot::config::Config;
 use vibrissa_robot::drive::LoopRecord;
@@ -20,7 +19,7 @@ use super::options::{Format, WorldOptions};
 use super::output;
 use super::provenance::of_trials;
 use super::run_recording::RunRecording;
-use super::trials::{ReportFiles, inputs, make_directory, report_events, report_violations};
+use super::trials::{ReportFiles, make_directory, report_events, report_violations};
 use super::values::parse_seed;
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
@@ -154,8 +153,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     let text = policy.value.text.map(|text| text.source);
     let artifact = policy.value.artifact;
     let admission = admit(&artifact, &config, &mut Device::instant());
-    let Admission { config, slower } =
-        admission.map_err(|cause| Failure::NotAdmitted { machine: arguments.machine.clone(), cause })?;
+    let Admission { config, slower } = admission.map_err(Failure::at(&arguments.machine))?;
     if let Some(slower) = slower {
         output::message(format_args!("warning: {slower}"));
     }
@@ -167,7 +165,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
         None => None,
     };
     let world = arguments.world.of(&scene);
-    let inputs = inputs(scenario, &scenario_hash.finalize(), &policy.hash.finalize());
+    let inputs = Inputs::new(scenario, scenario_hash, policy.hash);
     let mut recording = match &arguments.record {
         Some(path) => {
             let details = BTreeMap::from([
@@ -194,8 +192,7 @@ fn emulate(arguments: &DriveArguments, scenario: &Path) -> Result<Exit, Failure>
     let mut page = ();
     let emulated = emulated::run(&trial, &config, &settings, record, &mut page).map_err(|cause| {
         // With a configuration, the rig is that of its file.
-        let path = arguments.config.clone().unwrap_or_else(|| trial.inputs.scenario.clone());
-        Failure::Emulated { path, cause }
+        Failure::at(arguments.config.as_ref().unwrap_or(&trial.inputs.scenario))(cause)
     })?;
     #[cfg(feature = "live")]
     if let Some(page) = page {
@@ -246,8 +243,7 @@ fn tables(result: &DriveResult) -> Vec<Table> {
 pub(super) fn config(path: &Path, files: &mut CommandFiles) -> Result<(Config, String), Failure> {
     let text = load::read(path, files)?.text;
     let mut calibration = |name: &str| load::outline_file(&load::beside(path, name), files);
-    let config = Config::from_text_with(&text, &mut calibration)
-        .map_err(|cause| Failure::RobotConfig { path: path.to_owned(), cause })?;
+    let config = Config::from_text_with(&text, &mut calibration).map_err(Failure::at(path))?;
     Ok((config, text))
 }
 
@@ -257,10 +253,9 @@ const RESUMED: f64 = 61.0;
 /// Reads a list of faults for a robot, in a run of at most `time` (s).
 fn injections(path: &Path, config: &Config, time: f64, files: &mut CommandFiles) -> Result<Vec<Injection>, Failure> {
     let text = load::read(path, files)?;
-    let refused = |cause: String| Failure::Injections { path: path.to_owned(), cause };
-    let injections = Injection::list(&text.text, config).map_err(|cause| refused(cause.to_string()))?;
+    let injections = Injection::list(&text.text, config).map_err(Failure::at(path))?;
     if injections.is_empty() {
-        return Err(refused("the list has no fault; write one, or leave out `--inject`".to_owned()));
+        return Err(Failure::at(path)("the list has no fault; write one, or leave out `--inject`"));
     }
     let seconds = |milliseconds: u64| milliseconds as f64 * 1e-3;
     for (index, injection) in injections.iter().enumerate() {
@@ -270,7 +265,7 @@ fn injections(path: &Path, config: &Config, time: f64, files: &mut CommandFiles)
         let latest = time + others.map(|(_, before)| seconds(before.for_ms) + RESUMED).sum::<f64>();
         if seconds(injection.at_ms) >= latest {
             let at = seconds(injection.at_ms);
-            return Err(refused(format!(
+            return Err(Failure::at(path)(format!(
                 "the fault {} would begin at {at} s, and the run ends after {latest} s at the latest; give an earlier `at_ms`, \
                  or a later `stop: {{time: ...}}` of the scenario",
                 index + 1

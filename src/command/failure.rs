@@ -1,23 +1,21 @@
 //! Errors of commands.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use vibrissa_text::system::in_words;
 
 #[cfg(feature = "live")]
 use crate::live::LiveError;
-use crate::services::MessagesError;
 #[cfg(feature = "render")]
 use crate::video::VideoError;
 #[cfg(feature = "sim")]
 use vibrissa_lab::calibration::CalibrationRigError;
 use vibrissa_lab::calibration::{ArrayCalibrationError, MIN_POSITIONS};
-use vibrissa_lab::emulated::EmulatedError;
 use vibrissa_lab::family::{FAMILIES, NoDraw};
 use vibrissa_lab::load::LoadError;
 use vibrissa_lab::property::RegressionsError;
 #[cfg(feature = "recording")]
-use vibrissa_lab::recording::{ReadRecordingError, RecordError};
-use vibrissa_lab::report::ChartTooLarge;
+use vibrissa_lab::recording::RecordError;
 use vibrissa_lab::request::RequestError;
 use vibrissa_lab::study::compare::OlderRunsError;
 use vibrissa_lab::study::scale::ScaleError;
@@ -25,16 +23,14 @@ use vibrissa_lab::study::stress::CaseError;
 use vibrissa_lab::sweep::ResultsError;
 use vibrissa_lab::trial::{ExecuteError, StartError, Trial, TrialFault};
 use vibrissa_lab::tune::{AxisError, CandidateError};
-use vibrissa_language::chart::UnknownState;
 #[cfg(feature = "viewer")]
 use vibrissa_mujoco::visual::WindowError;
-use vibrissa_robot::recording::{KeepError, WriteError};
+use vibrissa_robot::recording::WriteError;
 use vibrissa_robot::store::{KeysError, PushError, Refusal, SignedMachineError};
 use vibrissa_runtime::machine::{ArtifactError, SetError};
 use vibrissa_runtime::rig::UnknownWhisker;
 use vibrissa_text::file::OutputError;
 use vibrissa_world::mismatch::MismatchError;
-use vibrissa_world::solid::PartsError;
 
 use super::exit::Exit;
 use super::output;
@@ -44,6 +40,9 @@ use super::output;
 pub(super) enum Failure {
     #[error(transparent)]
     Load(#[from] LoadError),
+    /// What is wrong with a file that could be read, or with its use.
+    #[error("{}: {cause}", path.display())]
+    At { path: PathBuf, cause: Box<dyn Error + Send + Sync> },
     #[error(transparent)]
     GivenMachine(ArtifactError),
     #[error("cannot make the folder {}: {words}; choose another path with --out", path.display(), words = in_words(cause))]
@@ -97,12 +96,6 @@ pub(super) enum Failure {
     BreakOutput { argument: &'static str },
     #[error("--break ends a run, and --watch begins the next one; add --live, whose page shows the breakpoints")]
     BreakWatch,
-    #[cfg(feature = "live")]
-    #[error("{}: it does not compile to the recorded machine; give the text of the policy that ran", path.display())]
-    OtherMachine { path: PathBuf },
-    #[cfg(feature = "live")]
-    #[error("{}: the recorded run had another scenario; give the file that it ran", path.display())]
-    OtherScenario { path: PathBuf },
     #[error("cannot watch files: {0}")]
     Watch(#[from] notify::Error),
     #[error(
@@ -121,8 +114,6 @@ pub(super) enum Failure {
     Stage(#[from] crate::stage::StageError),
     #[error("cannot read standard input: {words}", words = in_words(.0))]
     Standard(std::io::Error),
-    #[error("{}: {cause}", path.display())]
-    Pluck { path: PathBuf, cause: vibrissa_lab::calibration::PluckError },
     #[error("there is no family `{name}`; there are {}", known_families())]
     NoSuchFamily { name: String },
     #[error("scenes of families set the policy's parameters: {0}")]
@@ -141,14 +132,10 @@ pub(super) enum Failure {
     NoHeldOut,
     #[error("these are too few runs for one generation of the search; give at least --runs {needed}, or fewer scenes")]
     FewRuns { needed: usize },
-    #[error("{}: {cause}", scenario.display())]
-    Parts { scenario: PathBuf, cause: PartsError },
     #[error("{}: --mismatch: {cause}", scenario.display())]
     Mismatch { scenario: PathBuf, cause: MismatchError },
     #[error(transparent)]
     NoDraw(NoDraw),
-    #[error("{}: almost no start within the jitter is collision-free; make --jitter smaller", scenario.display())]
-    NoStart { scenario: PathBuf },
     #[error("--set: {0}")]
     Set(#[from] SetError),
     #[error("--set: {}: {cause}; choose the policies that have it with --policy", policy.display())]
@@ -181,33 +168,19 @@ pub(super) enum Failure {
     NoLsp,
     #[error("a statechart cannot be written as `{}`; end the name in .svg, .mmd or .dot, or give --format", .0.display())]
     ChartFile(PathBuf),
-    #[error("{}: {cause}", policy.display())]
-    Chart { policy: PathBuf, cause: ChartTooLarge },
-    #[error("{}: {cause}", policy.display())]
-    View { policy: PathBuf, cause: UnknownState },
     #[error(
         "the real array is driven by the program `vibrissa-robot`, which cannot be started: {words}. Install it on the robot \
          (`cargo x pi`, or `cargo install --path crates/robot`), or drive a simulated array with --emulate SCENARIO",
         words = in_words(.0)
     )]
     NoRobotProgram(std::io::Error),
-    #[error("{}: {cause}", path.display())]
-    RobotConfig { path: PathBuf, cause: vibrissa_robot::config::ConfigError },
     #[error("--name: {0}")]
     RobotName(vibrissa_robot::config::ConfigError),
-    #[error("{}: {cause}", path.display())]
-    Messages { path: PathBuf, cause: MessagesError },
     #[error(
         "the counts do not agree with the mechanics of the whisker `{whisker}`; check --neutral, the positions, and the shaft in \
          the configuration, or measure `field_per_moment` with weights first: it must be right within a factor of five"
     )]
     NoField { whisker: String },
-    #[error("{}: {cause}", path.display())]
-    Injections { path: PathBuf, cause: String },
-    #[error("{}: {cause}", machine.display())]
-    NotAdmitted { machine: PathBuf, cause: vibrissa_robot::admission::Refusal },
-    #[error("{}: {cause}", path.display())]
-    Emulated { path: PathBuf, cause: EmulatedError },
     #[error(transparent)]
     Machine(#[from] SignedMachineError),
     #[error(transparent)]
@@ -216,20 +189,11 @@ pub(super) enum Failure {
     Refused(#[from] Refusal),
     #[error(transparent)]
     Push(#[from] PushError),
-    #[error("{}: {cause}", path.display())]
-    Keep { path: PathBuf, cause: KeepError },
-    #[error("{}: no fault has stopped the robot in this recording; give a time with --at", path.display())]
-    NoStop { path: PathBuf },
-    #[error("{}: the recording ends at {end:.3} s; give an earlier time with --at", path.display())]
-    Ended { path: PathBuf, end: f64 },
     #[error("the run cannot be recorded: {0}")]
     Record(#[from] WriteError),
     #[cfg(feature = "recording")]
     #[error("the run cannot be recorded: {0}")]
     RecordRun(#[from] RecordError),
-    #[cfg(feature = "recording")]
-    #[error("{}: {cause}", path.display())]
-    RunRecording { path: PathBuf, cause: ReadRecordingError },
     #[error("{argument} is for one run, and there are {scenarios} scenarios; give one scenario")]
     OneRun { argument: &'static str, scenarios: usize },
     #[cfg(feature = "render")]
@@ -250,12 +214,6 @@ pub(super) enum Failure {
     #[cfg(feature = "viewer")]
     #[error("--view: {0}")]
     Window(#[from] WindowError),
-    #[cfg(feature = "recording")]
-    #[error("{}: {reason}", path.display())]
-    OtherPolicy { path: PathBuf, reason: &'static str },
-    #[cfg(feature = "recording")]
-    #[error("{}: it has no text of its policy, because a compiled machine was recorded; record a run of the policy itself", path.display())]
-    NoRecordedText { path: PathBuf },
     #[error("the result cannot be written as JSON: {0}; this is a fault of the program, please report it")]
     Json(#[from] serde_json::Error),
     #[error("the touches cannot be written: {0}; this is a fault of the program, please report it")]
@@ -263,6 +221,12 @@ pub(super) enum Failure {
 }
 
 impl Failure {
+    /// What is wrong with the content of a file.
+    pub(super) fn at<E: Into<Box<dyn Error + Send + Sync>>>(path: &Path) -> impl FnOnce(E) -> Self {
+        let path = path.to_owned();
+        |cause| Self::At { path, cause: cause.into() }
+    }
+
     /// The error of a trial that cannot begin.
     pub(super) fn execute(trial: &Trial) -> impl FnOnce(ExecuteError) -> Self {
         let scenario = trial.inputs.scenario.clone();
@@ -279,13 +243,6 @@ impl Failure {
     pub(super) fn calibration(scenario: &Path) -> impl FnOnce(ArrayCalibrationError) -> Self {
         let scenario = scenario.to_owned();
         |cause| Self::Calibration { scenario, cause }
-    }
-
-    /// The error of the recording of a simulated run.
-    #[cfg(feature = "recording")]
-    pub(super) fn run_recording(path: &Path) -> impl FnOnce(ReadRecordingError) -> Self {
-        let path = path.to_owned();
-        |cause| Self::RunRecording { path, cause }
     }
 
     pub(super) fn folder(path: &Path) -> impl FnOnce(std::io::Error) -> Self {

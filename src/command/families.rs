@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use sha2::{Digest, Sha256};
+use vibrissa_declare::catalogue::common::SPEED;
+use vibrissa_runtime::machine::Program;
 use vibrissa_runtime::units::{Dimension, format_si};
 
 use super::exit::Exit;
@@ -13,16 +15,17 @@ use super::options::{ArrayOptions, FamilyValues, Format, Jobs, Settings, WorldOp
 use super::output;
 use super::provenance::of_runs;
 use super::report_folder::{ReportFolder, say};
-use super::trials::{Finished, report_dead_whiskers, run_all};
+use super::trial_runs::run_all;
+use super::trials::{Finished, report_dead_whiskers};
 use super::values::{parse_runs, parse_seed};
 use vibrissa_lab::built_in::DEFAULT_POLICY;
 use vibrissa_lab::family::{Draw, FAMILIES, Family, FamilyRun, FamilyTally, SPEEDS};
-use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, Policy, with_settings};
+use vibrissa_lab::load::{self, GivenMismatch, LoadError, Loaded, with_settings};
 use vibrissa_lab::report::{families_page, families_table};
 use vibrissa_lab::results::{Provenance, SeedRange};
 use vibrissa_lab::trial::{Trial, in_parallel};
 use vibrissa_text::file::CommandFiles;
-use vibrissa_world::scene::Violation;
+use vibrissa_world::scene::{Scene, Violation, WorldSetup};
 
 const EXAMPLE: &str = "Example:\n  vibrissa families convex-corner --count 50 --out out\n\nExit status: 0 all runs passed; 1 otherwise; 2 unusable input; 3 internal error; 130 interrupted.";
 
@@ -95,14 +98,17 @@ pub(super) fn families(arguments: &FamiliesArguments) -> Result<Exit, Failure> {
     output::warnings(&policy.value);
     let policy = arguments.settings.of(policy)?;
     let mismatch = arguments.array.load(&mut files)?;
-    let trials =
-        scenes.iter().map(|scene| trial(scene, &policy, &mismatch, arguments)).collect::<Result<Vec<_>, Failure>>()?;
+    let program = (&policy.value.artifact.program, &policy.hash);
+    let trial = |Drawn { draw, number, .. }: &Drawn| {
+        drawn_trial(draw, program, &mismatch, |scene| arguments.world.of(scene), *number)
+    };
+    let trials = scenes.iter().map(trial).collect::<Result<Vec<_>, Failure>>()?;
     mismatch.check_effect(trials.iter().map(|trial| &trial.scene)).map_err(LoadError::from)?;
     let names: Vec<String> = scenes.iter().map(|scene| format!("{}.svg", scene.draw.scene.name)).collect();
     let all = names.iter().cloned().chain([RESULTS.to_owned()]);
-    let report = ReportFolder::new(arguments.out.as_deref(), all, &mut files)?;
+    let report = ReportFolder::new("families", arguments.out.as_deref(), all, &mut files)?;
     let is_drawn = |violations: &[Violation]| arguments.out.is_some() && !violations.is_empty();
-    let finished = run_all(&trials, &mismatch, arguments.jobs, is_drawn)?;
+    let finished = run_all(&trials, &mismatch, arguments.jobs, report.as_ref(), is_drawn)?;
     let (runs, pictures) = with_verdicts(scenes, finished);
     let provenance = of_families(&runs, arguments);
     let tallies = tallies(&families, &runs);
@@ -171,19 +177,19 @@ fn chosen(names: &[PathBuf], files: &mut CommandFiles) -> Result<Vec<Family>, Fa
     Ok(chosen)
 }
 
-fn trial(
-    drawn: &Drawn,
-    policy: &Loaded<Policy>,
+/// The trial with this `number` of a drawn scene, at its speed. Its array is not yet calibrated.
+pub(super) fn drawn_trial(
+    Draw { text, scene, speed }: &Draw,
+    (program, policy_hash): (&Program, &Sha256),
     mismatch: &GivenMismatch,
-    arguments: &FamiliesArguments,
+    world: impl Fn(&Scene) -> WorldSetup,
+    number: u64,
 ) -> Result<Trial, Failure> {
-    let Draw { text, scene, speed } = &drawn.draw;
     let loaded = Loaded { value: scene.clone(), hash: Sha256::new_with_prefix(text) };
-    let mut program = policy.value.artifact.program.clone();
-    program.set("speed", *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
-    let policy_hash = with_settings(policy.hash.clone(), [("speed", *speed)].into_iter());
-    let (program, world) = (Arc::new(program), arguments.world.of(scene));
-    Ok(mismatch.trial((Path::new(&scene.name), loaded), (&program, policy_hash), world, drawn.number)?)
+    let mut program = program.clone();
+    program.set(SPEED.name, *speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
+    let policy_hash = with_settings(policy_hash.clone(), [(SPEED.name, *speed)].into_iter());
+    Ok(mismatch.trial((Path::new(&scene.name), loaded), (&Arc::new(program), policy_hash), world(scene), number)?)
 }
 
 /// Prints a scenario and the command that runs it.
@@ -199,8 +205,8 @@ fn print(Drawn { family, number, draw }: &Drawn, seed: u64) -> Result<(), Failur
 fn with_verdicts(scenes: Vec<Drawn>, finished: Vec<Finished>) -> (Vec<FamilyRun>, Vec<Option<String>>) {
     let rows = scenes.into_iter().zip(finished).map(|(drawn, finished)| {
         let Drawn { family, number: trial, draw } = drawn;
-        let Finished { result, violations, figures } = finished;
-        let passed = violations.is_empty();
+        let Finished { result, figures } = finished;
+        let passed = result.violations.is_empty();
         let run = FamilyRun { family, trial, about: draw.scene.description, speed: draw.speed, passed, result };
         if !passed {
             report_run(&run);

@@ -69,11 +69,9 @@ pub(super) fn graph(arguments: &GraphArguments) -> Result<Exit, Failure> {
     let whole = load::chart(&arguments.policy, &mut files)?;
     let file = arguments.out.as_ref().map(|path| files.output("--out", path)).transpose()?;
     let format = arguments.format.map_or_else(|| ChartFormat::of(arguments.out.as_deref()), Ok)?;
-    let chart = whole.view(view).map_err(|cause| Failure::View { policy: arguments.policy.clone(), cause })?;
+    let chart = whole.view(view).map_err(Failure::at(&arguments.policy))?;
     let text = match format {
-        ChartFormat::Svg => {
-            chart_svg(&chart).map_err(|cause| Failure::Chart { policy: arguments.policy.clone(), cause })?
-        }
+        ChartFormat::Svg => chart_svg(&chart).map_err(Failure::at(&arguments.policy))?,
         ChartFormat::Mermaid => chart_mermaid(&chart),
         ChartFormat::Dot => chart_dot(&chart),
     };

@@ -39,20 +39,19 @@ pub(super) fn keep(arguments: &KeepArguments) -> Result<Exit, Failure> {
     let mut files = CommandFiles::new();
     let recording = load::recording(paths, &mut files)?;
     let file = files.output("--out", &arguments.out.clone().unwrap_or_else(|| kept_name(named)))?;
-    let (at, recording) = match arguments.at {
-        Some(at) => (at, recording),
-        None => match first_stop(recording).map_err(LoadError::recording(named))? {
-            Some(stop_ns) => (stop_ns as f64 * 1e-9, load::recording(paths, &mut files)?),
-            None => return Err(Failure::NoStop { path: named.to_owned() }),
-        },
+    let (at, recording) = if let Some(at) = arguments.at {
+        (at, recording)
+    } else {
+        let stop_ns = first_stop(recording).map_err(LoadError::recording(named))?;
+        let reason = "no fault has stopped the robot in this recording; give a time with --at";
+        (stop_ns.ok_or_else(|| Failure::at(named)(reason))? as f64 * 1e-9, load::recording(paths, &mut files)?)
     };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
     let [at_ns, until_ns] = [at, at + AFTER].map(|time| (time * 1e9) as u64);
-    let (bytes, kept) =
-        keep_until(recording, until_ns, Vec::new()).map_err(|cause| Failure::Keep { path: named.to_owned(), cause })?;
+    let (bytes, kept) = keep_until(recording, until_ns, Vec::new()).map_err(Failure::at(named))?;
     let end = kept.end_ns as f64 * 1e-9;
     if kept.end_ns < at_ns {
-        return Err(Failure::Ended { path: named.to_owned(), end });
+        return Err(Failure::at(named)(format!("the recording ends at {end:.3} s; give an earlier time with --at")));
     }
     let kept_recording = Recording::open(bytes.as_slice()).map_err(LoadError::recording(named))?;
     let difference = replay(kept_recording).map_err(LoadError::recording(named))?.difference;

@@ -24,7 +24,7 @@ pub(super) struct MjcfArguments {
 
 pub(super) fn mjcf(arguments: &MjcfArguments) -> Result<Exit, Failure> {
     let scene = load::scenario(&arguments.scenario, &mut CommandFiles::new())?.value;
-    let model = model(&scene).map_err(|cause| Failure::Parts { scenario: arguments.scenario.clone(), cause })?;
+    let model = model(&scene).map_err(Failure::at(&arguments.scenario))?;
     output::result(model.trim_end())?;
     Ok(Exit::Done)
 }

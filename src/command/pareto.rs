@@ -69,7 +69,7 @@ pub(super) fn pareto(arguments: &ParetoArguments) -> Result<Exit, Failure> {
     let provenance = of_trials(&programs.iter().map(trial).collect::<Vec<_>>());
     let file = |policy: &str, extension| format!("{}-{policy}-pareto.{extension}", scene.name);
     let names = programs.iter().flat_map(|program| ["json", "svg"].map(|extension| file(&program.name, extension)));
-    let mut report = ReportFolder::new(arguments.out.as_deref(), names, &mut files)?;
+    let mut report = ReportFolder::new("pareto", arguments.out.as_deref(), names, &mut files)?;
     let (settings, repeats) = (Setting::all(&scene, world), arguments.repeats);
     let mut progress = Progress::new(programs.len() * settings.len() * (repeats + 1));
     let mut measured = Vec::with_capacity(programs.len());

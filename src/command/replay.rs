@@ -77,7 +77,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
                 if arguments.policy.is_some() && run.policy().is_some() {
                     let reason =
                         "the page shows the recorded policy; leave out --policy, or compare policies without --live";
-                    return Err(Failure::OtherPolicy { path: named.to_owned(), reason });
+                    return Err(Failure::at(named)(reason));
                 }
                 show(named, SampledRun::from(&run), arguments, &mut files, &live)?;
                 replay_run(named, &run, None, arguments, &mut files)?;
@@ -97,7 +97,7 @@ pub(super) fn replay(arguments: &ReplayArguments) -> Result<Exit, Failure> {
         if arguments.policy.is_some() {
             let reason = "it is the recording of a robot, whose steps another policy cannot repeat; leave out --policy, or add --live \
                           to see the guards of the policy that ran";
-            return Err(Failure::OtherPolicy { path: named.to_owned(), reason });
+            return Err(Failure::at(named)(reason));
         }
     }
     let recording = load::recording(paths, &mut files)?;
@@ -126,13 +126,15 @@ fn replay_run(
     files: &mut CommandFiles,
 ) -> Result<Exit, Failure> {
     let Some(policy) = policy else {
-        let result = vibrissa_lab::recording::replay(run).map_err(Failure::run_recording(path))?;
+        let result = vibrissa_lab::recording::replay(run).map_err(Failure::at(path))?;
         output::document(arguments.format, &provenance(), &result, || replay_tables(&result))?;
         return Ok(if result.difference.is_none() { Exit::Done } else { Exit::Unexpected });
     };
-    let own = run.policy().ok_or_else(|| Failure::NoRecordedText { path: path.to_owned() })?;
+    let no_text =
+        "it has no text of its policy, because a compiled machine was recorded; record a run of the policy itself";
+    let own = run.policy().ok_or_else(|| Failure::at(path)(no_text))?;
     let (own, other) = (breakpoints(own, &[])?, explained(policy, files)?);
-    let difference = compare_policies(run, [&own, &other]).map_err(Failure::run_recording(path))?;
+    let difference = compare_policies(run, [&own, &other]).map_err(Failure::at(path))?;
     output::document(arguments.format, &provenance(), &difference, || difference_tables(&difference))?;
     Ok(if difference.first.is_none() { Exit::Done } else { Exit::Unexpected })
 }
@@ -152,7 +154,7 @@ fn show(
     let scene = recorded_scene(&recorded, arguments.scenario.as_deref(), files)?;
     let trial = scene.as_ref().and_then(|scene| recorded_trial(&recorded, scene));
     let mut watcher = begin(live, replay_setup(&recorded, scene, trial), || false)?;
-    let replayed = recorded.drive(&mut watcher).map_err(|cause| Failure::run_recording(path)(cause.into()))?;
+    let replayed = recorded.drive(&mut watcher).map_err(Failure::at(path))?;
     if let Some(replayed) = replayed {
         watcher.finish_unjudged(&replayed);
     }
@@ -166,7 +168,8 @@ fn recorded_policy(recorded: &SampledRun, path: &Path, files: &mut CommandFiles)
     let program = policy.artifact.program;
     let own = Program { initial_registers: program.initial_registers.clone(), ..(*recorded.program).clone() };
     let text = policy.text.filter(|_| own == program).map(|text| text.source);
-    text.ok_or_else(|| Failure::OtherMachine { path: path.to_owned() })
+    let reason = "it does not compile to the recorded machine; give the text of the policy that ran";
+    text.ok_or_else(|| Failure::at(path)(reason))
 }
 
 /// The scene of a recording, if its scenario is given or one of the bench. `None` if it is not known.
@@ -189,7 +192,7 @@ fn recorded_scene(
         Some(path) => {
             let loaded = load::scenario(path, files)?;
             if !is_recorded(&loaded) {
-                return Err(Failure::OtherScenario { path: path.to_owned() });
+                return Err(Failure::at(path)("the recorded run had another scenario; give the file that it ran"));
             }
             Some(loaded)
         }
@@ -220,5 +223,5 @@ pub(super) fn run_recording(path: &Path, files: &mut CommandFiles) -> Result<Opt
         return Ok(None);
     }
     file.rewind().map_err(LoadError::read(path))?;
-    RunRecording::read(BufReader::new(file)).map(Some).map_err(Failure::run_recording(path))
+    RunRecording::read(BufReader::new(file)).map(Some).map_err(Failure::at(path))
 }

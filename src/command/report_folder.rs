@@ -9,15 +9,21 @@ use super::output;
 use super::trials::make_directory;
 use vibrissa_text::file::{CommandFiles, Output};
 
+/// The name of the file of finished runs.
+const UNFINISHED: &str = "unfinished.jsonl";
+
 /// The files of a report. All of them are named before the runs, so that a refused name costs no run.
 pub(super) struct ReportFolder {
+    command: &'static str,
     files: BTreeMap<String, Output>,
     page: Output,
+    unfinished: Output,
 }
 
 impl ReportFolder {
-    /// Makes the folder for a page and files with these names. `None` without `--out`.
+    /// Makes the folder for a page and files with these names, which a `command` writes. `None` without `--out`.
     pub(super) fn new(
+        command: &'static str,
         directory: Option<&Path>,
         names: impl IntoIterator<Item = String>,
         files: &mut CommandFiles,
@@ -27,7 +33,17 @@ impl ReportFolder {
         let mut file = |name: &str| files.output("--out", &directory.join(name));
         let named = names.into_iter().map(|name| Ok((name.clone(), file(&name)?)));
         let named = named.collect::<Result<_, Failure>>()?;
-        Ok(Some(Self { files: named, page: file("index.html")? }))
+        Ok(Some(Self { command, files: named, page: file("index.html")?, unfinished: file(UNFINISHED)? }))
+    }
+
+    /// The command that writes the report.
+    pub(super) fn command(&self) -> &'static str {
+        self.command
+    }
+
+    /// The path of the finished runs, of which there is a file until the report is there.
+    pub(super) fn unfinished(&self) -> &Path {
+        self.unfinished.path()
     }
 
     /// Writes one of the named files.
@@ -37,7 +53,9 @@ impl ReportFolder {
 
     /// Writes the page and returns its path. Files that were not written stay as they are.
     pub(super) fn finish(self, page: impl AsRef<[u8]>) -> Result<PathBuf, Failure> {
-        written(self.page, page)
+        let page = written(self.page, page)?;
+        self.unfinished.remove()?;
+        Ok(page)
     }
 }
 

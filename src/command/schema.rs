@@ -16,7 +16,7 @@ use vibrissa_lab::study::stress::StressRow;
 use vibrissa_lab::study::timing::TimingRow;
 use vibrissa_lab::study::worlds::WorldsRow;
 use vibrissa_lab::sweep::{Header, SweepLine, SweepSummary};
-use vibrissa_lab::tune::{Tuning, TuningHeader, TuningLine};
+use vibrissa_lab::tune::{Tuning, TuningLine};
 use vibrissa_world::world::Pruning;
 
 use super::calibrate::Printed;
@@ -56,7 +56,6 @@ fn every_json_output_is_as_its_schema_says() {
         schema::<Header>(),
         schema::<SweepLine>(),
         schema::<SweepSummary>(),
-        schema::<TuningHeader>(),
         schema::<TuningLine>(),
         schema::<Tuning>(),
         schema::<Checked>(),

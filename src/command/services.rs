@@ -101,7 +101,7 @@ fn generate(arguments: &GenerateArguments) -> Result<Exit, Failure> {
 fn lines(arguments: &LinesArguments) -> Result<Exit, Failure> {
     let path = &arguments.messages;
     let text = CommandFiles::new().read(path, MESSAGES_LIMIT).map_err(LoadError::read(path))?;
-    let lines = lines_of_messages(&text).map_err(|cause| Failure::Messages { path: path.clone(), cause })?;
+    let lines = lines_of_messages(&text).map_err(Failure::at(path))?;
     output::text(lines.join("\n") + "\n")?;
     Ok(Exit::Done)
 }

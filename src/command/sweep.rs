@@ -7,20 +7,19 @@ use std::process::Command;
 use clap::{Args, ValueEnum};
 
 use super::exit::Exit;
+use super::experiment::{Experiment, FinishedRun};
 use super::failure::Failure;
 use super::options::{ArrayOptions, Format, Jobs, PruneOption};
 use super::output;
-use super::progress::{Kept, Progress};
 use super::provenance::of_trials;
 use super::report_folder::{say, written};
 use super::trials::make_directory;
 use vibrissa_lab::report::{summary_table, sweep_page};
 use vibrissa_lab::results::{Provenance, SeedRange, add_seeds};
 use vibrissa_lab::sweep::{
-    Plan, ReadLine, Results, RunRow, ScenesOf, Shard, Sweep, SweepLine, SweepSummary, read_calibration, read_line,
-    run_rows,
+    Plan, ReadLine, Results, ScenesOf, Shard, Sweep, SweepLine, SweepSummary, read_line, run_rows,
 };
-use vibrissa_lab::trial::{Answer, StartError, Worker, answer, stream_in_parallel};
+use vibrissa_lab::trial::{Answer, StartError, Worker, answer};
 use vibrissa_text::file::{CommandFiles, Output};
 
 const EXAMPLE: &str = "Example:\n  vibrissa sweep sweeps/corners.yaml --out out/corners\n\nExit status: 0 every run has a result, whatever it is; 1 a run crashed or could not begin; 2 unusable input; 3 internal error; 130 interrupted.";
@@ -87,7 +86,7 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     plan.analysed_policies(&mut files)?.iter().for_each(output::warnings);
     plan.check(output::message)?;
     let sweep = &plan.sweep;
-    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(sweep.name()));
+    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(&sweep.name));
     make_directory(Some(&directory))?;
     let pictures = directory.join(PICTURES);
     if arguments.pictures != Pictures::None {
@@ -98,33 +97,29 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<Exit, Failure> {
     let page = files.output("--out", &directory.join(PAGE))?;
     let provenance = of_sweep(&plan)?;
     let header = plan.header(arguments.shard);
-    let (mut results, mut done) = Results::open(&path, &header, &provenance, sweep)?;
-    let resumed = done.len();
+    let (results, done) = Results::of_sweep(&path, &header, &provenance, sweep)?;
     let runs = sweep.runs().filter(|run| arguments.shard.has(&run.key()));
     let left: Vec<u64> = runs.map(|run| run.index).filter(|index| !done.contains_key(index)).collect();
-    let mut progress = Progress::resumed(resumed as u64, left.len() as u64, Kept::In(path.clone()));
+    let mut experiment = Experiment::new(done.len() + left.len(), done, Some((path.clone(), results)));
     let fingerprint = header.fingerprint();
     let start = || worker(arguments, &pictures, &fingerprint);
     let mut calibrations = BTreeSet::new();
-    stream_in_parallel(
+    experiment.run(
         &left,
-        arguments.jobs.threads(),
+        arguments.jobs,
         || None,
         |slot, index| answer(slot, start, &index.to_string()),
-        |task, answer| {
-            let index = left[task];
+        |&index, answer| {
             let line = line(sweep, index, answer)?;
-            let ReadLine { key, figures, .. } = read_line(&line).map_err(Failure::Answer)?;
-            results.add(&line)?;
-            calibrations.extend(read_calibration(&line));
-            done.insert(index, figures);
-            progress.done(key);
-            Ok::<(), Failure>(())
+            let read = read_line(&line).map_err(Failure::Answer)?;
+            let result = read.figures();
+            calibrations.extend(read.calibration);
+            Ok(Some(FinishedRun { key: index, result, line, shown: read.key }))
         },
     )?;
-    progress.finish();
     output::calibrations(calibrations.iter());
-    let summary = SweepSummary::new(sweep, &done, resumed);
+    let resumed = experiment.resumed;
+    let summary = SweepSummary::new(sweep, &experiment.finish(), resumed);
     print_summary(&provenance, &summary, &path, arguments.format)?;
     // The page of a part would show a part of the sweep. `merge` writes that of the whole.
     if arguments.shard == Shard::WHOLE {
@@ -152,7 +147,7 @@ fn of_sweep(plan: &Plan) -> Result<Provenance, Failure> {
         add_seeds(&mut provenance.seeds, seeds);
     }
     for mismatch in &mut provenance.mismatches {
-        let most = plan.sweep.scenes().iter().map(|scenes| scenes.trials).max().unwrap_or(1);
+        let most = plan.sweep.scenes.iter().map(|scenes| scenes.trials).max().unwrap_or(1);
         if let Some(seeds) = mismatch.seeds.first_mut() {
             seeds.last = seeds.first.saturating_add(most.saturating_sub(1));
         }
@@ -209,7 +204,7 @@ pub(super) fn write_page(
     format: Format,
 ) -> Result<(), Failure> {
     let rows = run_rows(sweep, path, RUNS_SHOWN)?;
-    let picture = |row: &RunRow| {
+    let picture = |row: &ReadLine| {
         let name = format!("{PICTURES}/{}.svg", row.run);
         path.with_file_name(&name).is_file().then_some(name)
     };

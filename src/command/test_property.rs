@@ -2,17 +2,15 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
+use sha2::Sha256;
 use vibrissa_runtime::machine::Program;
-use vibrissa_runtime::units::Dimension;
 
 use super::failure::Failure;
+use super::families::drawn_trial;
 use super::options::{ArrayOptions, Jobs, WorldOption};
 use super::output;
 use super::progress::Progress;
@@ -21,7 +19,7 @@ use super::values::{parse_cases, parse_seed};
 use vibrissa_declare::catalogue::Entry;
 use vibrissa_declare::catalogue::common::SPEED;
 use vibrissa_lab::family::{Draw, Family, NoDraw};
-use vibrissa_lab::load::{GivenMismatch, Loaded, with_settings};
+use vibrissa_lab::load::{GivenMismatch, with_settings};
 use vibrissa_lab::property::{Case, Drawn, Regressions, Search, Shrunk, Verdict};
 use vibrissa_lab::results::RunResult;
 use vibrissa_lab::trial::{Trial, TrialResult, in_parallel, violations};
@@ -228,21 +226,16 @@ impl<'a> Property<'a> {
             Err(NoDraw::Given { .. }) => return Ok(Verdict::NoScene),
             Err(fault) => return Err(fault.into()),
         };
-        let trial = self.trial(draw)?;
+        let trial = self.trial(&draw)?;
         let result = trial.run().map_err(Failure::execute(&trial))?;
         let holds = violations(&self.test, &trial.program, &result).is_empty();
         Ok(if holds { Verdict::Holds } else { Verdict::Fails })
     }
 
-    fn trial(&self, draw: Draw) -> Result<Trial, Failure> {
-        let Draw { text, scene, speed } = draw;
+    fn trial(&self, draw: &Draw) -> Result<Trial, Failure> {
         let Simulated { world, mismatch, .. } = self.simulated;
-        let mut program = self.program.clone();
-        program.set(SPEED.name, speed, Dimension::SPEED).map_err(Failure::FamilySetting)?;
-        let policy_hash = with_settings(self.policy_hash.clone(), [(SPEED.name, speed)].into_iter());
-        let (path, world) = (PathBuf::from(&scene.name), world.of(&scene).into());
-        let scene = Loaded { value: scene, hash: Sha256::new_with_prefix(text) };
-        calibrated(&mismatch.trial((&path, scene), (&Arc::new(program), policy_hash), world, 0)?, mismatch)
+        let program = (&self.program, &self.policy_hash);
+        calibrated(&drawn_trial(draw, program, mismatch, |scene| world.of(scene).into(), 0)?, mismatch)
     }
 
     /// Runs a case that fails once more, for its report.
@@ -261,7 +254,7 @@ impl<'a> Property<'a> {
             self.entry.name,
             draw.text
         );
-        let trial = self.trial(draw)?;
+        let trial = self.trial(&draw)?;
         let finished = trial.run().map_err(Failure::execute(&trial))?;
         let faults = violations(&self.test, &trial.program, &finished);
         let result = trial.document(&finished);

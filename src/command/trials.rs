@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use vibrissa_runtime::machine::{Observer, TransitionId, TriedGuard, ViolatedContract};
 use vibrissa_runtime::signal::Sample;
 
 use super::failure::Failure;
-use super::options::Jobs;
 use super::output;
-use super::progress::Progress;
 use vibrissa_declare::figures::Metric;
 use vibrissa_lab::load::GivenMismatch;
 use vibrissa_lab::report::{RunFigures, retrieval_picture};
@@ -18,48 +17,18 @@ use vibrissa_lab::results::{
     Collisions, Document, Ending, Failsafes, Inclination, ObjectFriction, Provenance, RunResult, WhiskerResponse,
 };
 use vibrissa_lab::run::{Trace, Watcher};
-use vibrissa_lab::trial::{ExecuteError, Inputs, Trial, TrialResult, check_world, in_parallel, short_hash};
+use vibrissa_lab::trial::{Trial, TrialResult};
 use vibrissa_text::diagnostic::printable;
 use vibrissa_text::file::{CommandFiles, Output, OutputError};
-use vibrissa_world::scene::{Outcome, Violation};
+use vibrissa_world::scene::Violation;
 use vibrissa_world::world::World;
 
 /// The kept part of a trial's result. A trace is large.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Finished {
     pub(super) result: RunResult,
-    /// The expectations of the scenario that do not hold.
-    pub(super) violations: Vec<Violation>,
     /// The figures, if they were asked for.
     pub(super) figures: Option<RunFigures>,
-}
-
-/// Calibrates the array of each trial and runs it, in parallel. Returns the results in order. A trial has figures if
-/// `is_drawn` is true for its violations. Standard error shows the progress, and the calibrations of the runs.
-///
-/// A trial that cannot begin has a result that says so, unless no trial can.
-pub(super) fn run_all(
-    trials: &[Trial],
-    array: &GivenMismatch,
-    jobs: Jobs,
-    is_drawn: impl Fn(&[Violation]) -> bool + Sync,
-) -> Result<Vec<Finished>, Failure> {
-    let mut progress = Progress::new(trials.len());
-    let run = |trial: &Trial| finished(&calibrated(trial, array)?, &is_drawn);
-    let done = |finished: &Result<Finished, Failure>| {
-        if let Ok(Finished { result, .. }) = finished {
-            progress.done(format_args!("{}: {}", result.scenario, result.outcome));
-        }
-    };
-    let finished = in_parallel(trials, jobs.threads(), run, done);
-    progress.finish();
-    if finished.iter().all(Result::is_err) {
-        return finished.into_iter().collect();
-    }
-    let finished =
-        finished.into_iter().zip(trials).map(|(finished, trial)| finished.or_else(|cause| refused(trial, cause)));
-    let finished = finished.collect::<Result<Vec<_>, _>>()?;
-    output::calibrations(finished.iter().filter_map(|finished| finished.result.calibration.as_ref()));
-    Ok(finished)
 }
 
 /// The trial whose control knows the calibration of its array.
@@ -75,38 +44,15 @@ pub(super) fn say_calibrations<'t>(trials: impl Iterator<Item = &'t Trial>) {
     output::calibrations(calibrations.iter());
 }
 
-/// The result of a trial that cannot begin. Other failures concern all trials, such as a missing simulator.
-fn refused(trial: &Trial, failure: Failure) -> Result<Finished, Failure> {
-    let reason = match &failure {
-        Failure::Execute { cause: ExecuteError::Interrupted, .. } => return Err(failure),
-        Failure::Execute { cause, .. } if check_world(trial.world.kind).is_ok() => cause.to_string(),
-        Failure::Calibration { cause, .. } if check_world(trial.world.kind).is_ok() => cause.to_string(),
-        _ => return Err(failure),
-    };
-    let result = trial.refused(reason);
-    let violation = Violation::Outcome { expected: Outcome::Completed, found: Outcome::Refused };
-    Ok(Finished { result, violations: vec![violation], figures: None })
-}
-
 /// Runs one trial.
 pub(super) fn finished(trial: &Trial, is_drawn: impl Fn(&[Violation]) -> bool) -> Result<Finished, Failure> {
     let result = trial.run().map_err(Failure::execute(trial))?;
     let figures = is_drawn(&result.violations).then(|| drawn(trial, &result));
-    Ok(Finished { result: trial.document(&result), violations: result.violations, figures })
+    Ok(Finished { result: trial.document(&result), figures })
 }
 
 pub(super) fn drawn(trial: &Trial, result: &TrialResult) -> RunFigures {
     RunFigures::new(&trial.scene, &trial.policy_label(), &result.run, &result.score)
-}
-
-/// The inputs of a trial, by the path of its scenario and the hashes of scenario and policy.
-pub(super) fn inputs(path: &Path, scenario_hash: &[u8], policy_hash: &[u8]) -> Inputs {
-    Inputs {
-        scenario: path.to_owned(),
-        scenario_hash: short_hash(scenario_hash),
-        policy_hash: short_hash(policy_hash),
-        ..Inputs::default()
-    }
 }
 
 /// Runs a trial under a watcher, and shows a progress bar on standard error if that is a terminal.

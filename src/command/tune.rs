@@ -17,10 +17,11 @@ use super::values::{parse_runs, parse_seed};
 use vibrissa_lab::family::Family;
 use vibrissa_lab::load;
 use vibrissa_lab::report::tuning_tables;
+use vibrissa_lab::sweep::Header;
 use vibrissa_lab::trial::{engine_version, short_hash};
 use vibrissa_lab::tune::{
     Axis, Candidate, Evolution, Objective, Term, TunedFigures, TunedParameter, TunedRun, TunedValues, Tuning,
-    TuningHeader, TuningScene,
+    TuningScene,
 };
 use vibrissa_language::with_defaults;
 use vibrissa_text::file::CommandFiles;
@@ -92,9 +93,10 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
         .check_effect(training.iter().chain(&held_out).filter_map(TuningScene::of_scenario))
         .map_err(load::LoadError::from)?;
     let objective = Objective::new(&arguments.weights);
-    let mut header = header(short_hash(&policy.hash.finalize()), &axes, [&training, &held_out], &objective, arguments);
+    let (name, hash) = (format!("tune-{}", program.name), short_hash(&policy.hash.finalize()));
+    let mut header = header(&name, hash, &axes, [&training, &held_out], &objective, arguments);
     header.inputs.extend(array.inputs());
-    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(format!("tune-{}", program.name)));
+    let directory = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(name));
     make_directory(Some(&directory))?;
     let path = directory.join("results.jsonl");
     files.growing("--out", &path)?;
@@ -110,12 +112,12 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
         speed: arguments.settings.has("speed").then(|| value(&program, "speed")).flatten(),
         world: &arguments.world,
         array: &array,
-        jobs: &arguments.jobs,
+        jobs: arguments.jobs,
     };
     let provenance = work.provenance(&given, training.iter().chain(&held_out), arguments.seed)?;
-    let mut runs = TuningRuns::open(path, &header, &provenance, work)?;
     let references: Vec<&Candidate> = if given == default { vec![&given] } else { vec![&default, &given] };
-    runs.expect(plan.runs(training.len()) + (references.len() + 1) * held_out.len());
+    let expected = plan.runs(training.len()) + (references.len() + 1) * held_out.len();
+    let mut runs = TuningRuns::open(&path, expected, &header, &provenance, work)?;
     runs.run(&references, &training)?;
     let mut best = (mean_cost(&runs.of(&given, &training)), given.clone());
     let mut evolution = Evolution::new(&given.point(&axes), arguments.seed);
@@ -154,7 +156,7 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
         policy: program.name.clone(),
         objective: objective.to_string(),
         runs: plan.runs(training.len()),
-        resumed: runs.resumed,
+        resumed: runs.resumed(),
         parameters: axes.iter().map(parameter).collect(),
         values,
     };
@@ -163,7 +165,7 @@ pub(super) fn tune(arguments: &TuneArguments) -> Result<Exit, Failure> {
         let faults = |faults| load::LoadError::Faults { source_text: Box::new(text.clone()), faults };
         file.write(changed.map_err(faults)?)?;
     }
-    let path = runs.finish();
+    runs.finish();
     output::document(arguments.format, &provenance, &tuning, || tuning_tables(&tuning))?;
     if !arguments.format.json {
         let set = tuned_values.iter().map(|(name, value)| format!("--set \"{name}={value}\""));
@@ -236,12 +238,13 @@ fn held_out(arguments: &TuneArguments, files: &mut CommandFiles) -> Result<Vec<T
 }
 
 fn header(
+    name: &str,
     policy: String,
     axes: &[Axis],
     scenes: [&[TuningScene]; 2],
     objective: &Objective,
     arguments: &TuneArguments,
-) -> TuningHeader {
+) -> Header {
     let parameters: Vec<String> = axes.iter().map(|axis| format!("{} in {}", axis.name, axis.range())).collect();
     let all = scenes.into_iter().flatten();
     let inputs = [
@@ -253,9 +256,7 @@ fn header(
         ("the world", arguments.world.text()),
     ];
     let inputs = inputs.into_iter().map(|(name, value)| (name.to_owned(), value));
-    TuningHeader {
-        inputs: inputs.chain(all.map(|scene| (format!("scene {}", scene.name), scene.hash.clone()))).collect(),
-    }
+    Header::new(name, inputs.chain(all.map(|scene| (format!("scene {}", scene.name), scene.hash.clone()))))
 }
 
 /// The size of a search.

@@ -1,22 +1,22 @@
 //! The runs of `vibrissa tune`.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sha2::Sha256;
 use vibrissa_runtime::machine::Program;
 
+use super::experiment::{Experiment, FinishedRun};
 use super::failure::Failure;
 use super::options::{Jobs, WorldOptions};
 use super::output;
-use super::progress::{Kept, Progress};
 use super::provenance::of_trials;
 use super::trials::calibrated;
 use vibrissa_lab::load::GivenMismatch;
 use vibrissa_lab::results::{Provenance, add_seed};
-use vibrissa_lab::sweep::Results;
-use vibrissa_lab::trial::{Trial, stream_in_parallel};
-use vibrissa_lab::tune::{Axis, Candidate, Objective, TunedRun, TuningHeader, TuningLine, TuningScene};
+use vibrissa_lab::sweep::{Header, Results};
+use vibrissa_lab::trial::Trial;
+use vibrissa_lab::tune::{Axis, Candidate, Objective, TunedRun, TuningLine, TuningScene};
 
 /// All that the runs of a tuning have in common.
 #[derive(Clone, Copy)]
@@ -34,7 +34,7 @@ pub(super) struct TuningWork<'a> {
     /// The array.
     pub(super) array: &'a GivenMismatch,
     /// The threads.
-    pub(super) jobs: &'a Jobs,
+    pub(super) jobs: Jobs,
 }
 
 impl TuningWork<'_> {
@@ -71,43 +71,33 @@ impl TuningWork<'_> {
 /// The runs of a tuning, with their file.
 pub(super) struct TuningRuns<'a> {
     work: TuningWork<'a>,
-    path: PathBuf,
-    results: Results,
-    done: BTreeMap<(BTreeMap<String, String>, String), TunedRun>,
-    /// Number of runs whose results an earlier tuning has written.
-    pub(super) resumed: usize,
-    progress: Option<Progress>,
+    experiment: Experiment<RunKey, TunedRun>,
 }
 
+/// The settings of a candidate, and its scene.
+type RunKey = (BTreeMap<String, String>, String);
+
 impl<'a> TuningRuns<'a> {
-    /// Opens the file of results, and reads the runs that it has.
+    /// Opens the file of results, and reads those that it has of so many `runs`.
     pub(super) fn open(
-        path: PathBuf,
-        header: &TuningHeader,
+        path: &Path,
+        runs: usize,
+        header: &Header,
         provenance: &Provenance,
         work: TuningWork<'a>,
     ) -> Result<Self, Failure> {
         let mut done = BTreeMap::new();
-        let results = Results::open_with(
-            &path,
-            header,
-            provenance,
-            |found| found.difference(header),
-            |line| {
-                let TuningLine { scene, settings, run } =
-                    serde_json::from_str(line).map_err(|cause| cause.to_string())?;
-                let twice = done.insert((settings, scene), run).is_some();
-                if twice { Err("the run occurs a second time".to_owned()) } else { Ok(()) }
-            },
-        )?;
-        let resumed = done.len();
-        Ok(Self { work, path, results, done, resumed, progress: None })
+        let results = Results::open(path, header, provenance, |line| {
+            let TuningLine { scene, settings, run } = serde_json::from_str(line).map_err(|cause| cause.to_string())?;
+            let twice = done.insert((settings, scene), run).is_some();
+            if twice { Err("the run occurs a second time".to_owned()) } else { Ok(()) }
+        })?;
+        Ok(Self { work, experiment: Experiment::new(runs, done, Some((path.to_owned(), results))) })
     }
 
-    /// Shows the progress of so many runs in all.
-    pub(super) fn expect(&mut self, runs: usize) {
-        let left = runs.saturating_sub(self.resumed);
-        self.progress = Some(Progress::resumed(self.resumed as u64, left as u64, Kept::In(self.path.clone())));
+    /// Number of runs whose results an earlier tuning has written.
+    pub(super) fn resumed(&self) -> usize {
+        self.experiment.resumed
     }
 
     /// Runs candidates in scenes, except those whose results are there.
@@ -118,36 +108,33 @@ impl<'a> TuningRuns<'a> {
             .filter(|(candidate, scene)| {
                 let key = (candidate.settings(), scene.name.clone());
                 // Rounded values may occur twice in a generation.
-                !self.done.contains_key(&key) && keys.insert(key)
+                !self.experiment.done.contains_key(&key) && keys.insert(key)
             })
             .collect();
         let work = self.work;
-        let (results, finished, progress) = (&mut self.results, &mut self.done, &mut self.progress);
-        let keep = |index: usize, run: Result<TunedRun, Failure>| -> Result<(), Failure> {
-            let run = run?;
-            let Some(&(candidate, scene)) = tasks.get(index) else { return Ok(()) };
-            results.add(&output::json_line(None, &TuningLine::new(candidate, scene, run))?)?;
-            finished.insert((candidate.settings(), scene.name.clone()), run);
-            if let Some(progress) = progress {
-                progress.done(format_args!("{}: cost {:.3}", scene.name, run.cost));
-            }
-            Ok(())
-        };
         let run = |(): &mut (), (candidate, scene): &(&Candidate, &TuningScene)| work.run(candidate, scene);
-        stream_in_parallel(&tasks, work.jobs.threads(), || (), run, keep)
+        self.experiment.run(
+            &tasks,
+            work.jobs,
+            || (),
+            run,
+            |(candidate, scene), run| {
+                let result = run?;
+                let line = output::json_line(None, &TuningLine::new(candidate, scene, result))?;
+                let shown = format!("{}: cost {:.3}", scene.name, result.cost);
+                Ok(Some(FinishedRun { key: (candidate.settings(), scene.name.clone()), result, line, shown }))
+            },
+        )
     }
 
     /// The runs of a candidate in scenes.
     pub(super) fn of(&self, candidate: &Candidate, scenes: &[TuningScene]) -> Vec<TunedRun> {
-        let run = |scene: &TuningScene| self.done.get(&(candidate.settings(), scene.name.clone())).copied();
+        let run = |scene: &TuningScene| self.experiment.done.get(&(candidate.settings(), scene.name.clone())).copied();
         scenes.iter().filter_map(run).collect()
     }
 
-    /// Ends the progress, and returns the path of the results.
-    pub(super) fn finish(self) -> PathBuf {
-        if let Some(progress) = self.progress {
-            progress.finish();
-        }
-        self.path
+    /// Ends the progress.
+    pub(super) fn finish(self) {
+        self.experiment.finish();
     }
 }

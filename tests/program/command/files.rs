@@ -94,6 +94,7 @@ const ONTO_INPUTS: &[(&str, &str, &str, &str)] = &[
     ),
     ("bench --ideal --policy @/quick.fsm --simulator quasistatic --out @", "laws.fsm", "results.json", "--out"),
     ("bench --ideal --policy @/quick.fsm --simulator quasistatic --out @", "quick.fsm", "disk-quick.svg", "--out"),
+    ("bench --ideal --policy @/quick.fsm --simulator quasistatic --out @", "quick.fsm", "unfinished.jsonl", "--out"),
     ("run @/scene.yaml --out @", "quick.fsm", "index.html", "--out"),
     ("compare @/quick.fsm policies/thesis.fsm @/scene.yaml --out @", "scene.yaml", "results.json", "--out"),
     (

@@ -1,11 +1,14 @@
 //! Ctrl-C while many runs are done.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
+
+use serde_json::Value;
 
 use super::program::{ROOT, directory, stderr, vibrissa};
 
@@ -60,6 +63,62 @@ fn a_sweep_says_where_its_results_are_and_goes_on_with_them() {
     let output = vibrissa(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(lines(&results), 25);
+}
+
+/// The results of a command without the times that runs took, and without the command and its date.
+fn results(path: &Path) -> Vec<Value> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut results: Vec<Value> = match serde_json::from_str(&text) {
+        Ok(Value::Array(list)) => list,
+        _ => text.lines().map(|line| serde_json::from_str(line).unwrap()).collect(),
+    };
+    for result in &mut results {
+        for time in ["start_s", "wall_s", "realtime", "tick_us"] {
+            result.as_object_mut().unwrap().remove(time);
+        }
+        if let Some(provenance) = result["provenance"].as_object_mut() {
+            provenance.retain(|key, _| key != "command" && key != "date");
+        }
+    }
+    results
+}
+
+#[test]
+fn a_report_goes_on_with_its_finished_runs_and_says_the_same() {
+    let directory = directory("interrupted-reports");
+    let drawn = directory.join("drawn.yaml");
+    fs::write(&drawn, "stiffness: [-5 %, 5 %]\n").unwrap();
+    let mismatch = ["--mismatch", drawn.to_str().unwrap(), "--uncalibrated"];
+    let many = [&["--simulator", "quasistatic", "--jobs", "1"][..], &mismatch].concat();
+    let families = ["families", "convex-corner", "thin-wall", "--count", "12"];
+    for (arguments, name) in
+        [(&["bench", "--policy", "policies/thesis.fsm"][..], "results.json"), (&families[..], "results.jsonl")]
+    {
+        let [whole, parted] = ["whole", "parted"].map(|part| directory.join(format!("{}-{part}", arguments[0])));
+        let [whole_out, parted_out] = [&whole, &parted].map(|path| path.display().to_string());
+        let arguments = |out| [arguments, &many, &["--out", out]].concat();
+        let status = vibrissa(&arguments(&whole_out)).status.code();
+        let unfinished = parted.join("unfinished.jsonl");
+        let (interruption, told) = interrupted(&arguments(&parted_out), |_| lines(&unfinished) > 4);
+        assert_eq!(interruption, Some(130), "{told}");
+        assert!(told.contains("unfinished.jsonl") && told.contains("resumes from them"), "{told}");
+        let kept = fs::read_to_string(&unfinished).unwrap();
+
+        let others = vibrissa(&[&arguments(&parted_out)[..], &["--mismatch-seed", "5"]].concat());
+        assert_eq!(others.status.code(), Some(2));
+        assert!(stderr(&others).contains("another version of the runs"), "{}", stderr(&others));
+        assert_eq!(fs::read_to_string(&unfinished).unwrap(), kept);
+
+        // The end that a kill in the middle of writing leaves.
+        fs::write(&unfinished, kept + "{\"run\":7,\"fri").unwrap();
+        let resumed = vibrissa(&arguments(&parted_out));
+        assert_eq!(resumed.status.code(), status, "{}", stderr(&resumed));
+        assert_eq!(results(&parted.join(name)), results(&whole.join(name)));
+        let names = |folder: &Path| -> BTreeSet<_> {
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect()
+        };
+        assert_eq!(names(&parted), names(&whole));
+    }
 }
 
 #[test]

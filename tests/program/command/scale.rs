@@ -28,5 +28,5 @@ fn the_smallest_size_of_every_axis_has_a_time_and_a_sweep_has_a_cost_in_each_sim
     }
     let [exponents, times, costs] = scale_tables(&scale);
     assert!(exponents.wide().contains("far objects") && times.wide().contains("simulated s"));
-    assert_eq!(costs.rows().len(), simulators.len());
+    assert_eq!(costs.rows.len(), simulators.len());
 }

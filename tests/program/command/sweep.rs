@@ -345,7 +345,7 @@ fn merged_results_take_the_place_of_nothing_else() {
     let others = directory.join("results.jsonl");
     fs::write(&others, "letters to a friend\n").unwrap();
     for (arguments, reason) in [
-        (&["study", "merge", &out][..], "does not contain results of a sweep"),
+        (&["study", "merge", &out][..], "does not contain results of runs"),
         (&["study", "merge", &out, "--out", &shard], "holds results of the shard 1/2"),
     ] {
         let output = vibrissa(arguments);
@@ -369,7 +369,7 @@ fn results_that_are_something_else_are_left_alone() {
         fs::write(&results, text).unwrap();
         let output = vibrissa(&["sweep", &file, "--out", &directory.display().to_string()]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains("does not contain results of a sweep"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("does not contain results of runs"), "{}", stderr(&output));
         assert_eq!(fs::read_to_string(&results).unwrap(), text);
     }
     let empty = directory.join("empty");

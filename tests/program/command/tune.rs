@@ -76,7 +76,7 @@ fn a_detuned_policy_is_improved_and_an_interrupted_tuning_gives_the_same_result(
     for (change, told) in [(["--seed", "2"], "the seed"), (["--weight", "time=1"], "the objective")] {
         let output = tune(&whole, &change);
         assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains(&format!("another tuning: {told}")), "{}", stderr(&output));
+        assert!(stderr(&output).contains(&format!("another version of {told}")), "{}", stderr(&output));
     }
 }
 

@@ -145,9 +145,9 @@ fn conditions_leave_a_rig_whose_steps_fit_and_are_short_enough_and_ideal_ones_ch
 fn the_table_marks_figures_that_are_better_than_the_baselines() {
     let rows = ["disk", "smooth-tunnel"].into_iter().zip([2e-4, 2e-3]);
     let table = bench_table(&rows.map(|(scene, off)| BenchRow::new(result(scene, off))).collect::<Vec<_>>());
-    let column = |heading: &str| table.headings().iter().position(|found| found == heading).unwrap();
+    let column = |heading: &str| table.headings.iter().position(|found| found == heading).unwrap();
     for (row, wanted) in table
-        .rows()
+        .rows
         .iter()
         .zip([["better", "0.200 ± 0.000", "0.8 ± 0.5"], ["worse: error, axis", "2.00 ± 0.00", "1.3 ± 1.6"]])
     {
@@ -155,7 +155,7 @@ fn the_table_marks_figures_that_are_better_than_the_baselines() {
         assert_eq!(found, wanted);
     }
     // An axis that is not known is worse than the baseline's.
-    assert_eq!(["axis mm", "baseline: axis mm"].map(|heading| &table.rows()[1][column(heading)]), ["–", "4 ± 4"]);
+    assert_eq!(["axis mm", "baseline: axis mm"].map(|heading| &table.rows[1][column(heading)]), ["–", "4 ± 4"]);
 }
 
 #[test]

@@ -158,7 +158,7 @@ fn a_run_that_either_did_not_complete_is_in_no_pair_but_that_of_completion_and_i
     assert!(completed.first == 1.0 && completed.mean == 0.75, "a share of all runs");
     assert!(comparison.figures.iter().all(|figure| figure.figure != "corners.time_s"), "a disk has none");
     let [runs, figures, _] = <[_; 3]>::try_from(comparison_tables(&comparison)).unwrap();
-    assert_eq!(runs.rows()[1], ["b.fsm", "4", "75.0 (30.1–95.4)", "100.0 (51.0–100.0)"]);
+    assert_eq!(runs.rows[1], ["b.fsm", "4", "75.0 (30.1–95.4)", "100.0 (51.0–100.0)"]);
     assert!(figures.fitted().starts_with("b.fsm minus a.fsm"), "{}", figures.fitted());
 }
 

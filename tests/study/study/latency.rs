@@ -46,7 +46,7 @@ fn ticks_count_for_the_outermost_state_and_their_times_are_medians_of_the_repeti
     assert!((rows[0].share - 0.9).abs() < 1e-9 && (rows[0].longest - 0.9).abs() < 1e-9, "{:?}", rows[0]);
     let table = latency_table(&rows);
     let cells = ["5", "4000.0", "29160.0", "30000.0", "90.000", "900000.0"].map(str::to_owned);
-    assert!(table.rows()[0].ends_with(&cells), "{table:?}");
+    assert!(table.rows[0].ends_with(&cells), "{table:?}");
     assert_eq!(LatencyRow::of("disk", "mine", &[]), []);
 }
 

@@ -132,12 +132,10 @@ impl GivenMismatch {
         number: u64,
     ) -> Result<Trial, TrialFault> {
         let Loaded { value: mut scene, hash: mut scenario_hash } = scene;
-        let scenario = path.to_owned();
         if let Err(cause) = self.apply(&mut scene, &mut scenario_hash, number) {
-            return Err(TrialFault::Mismatch { scenario, cause });
+            return Err(TrialFault::Mismatch { scenario: path.to_owned(), cause });
         }
-        let [scenario_hash, policy_hash] = [scenario_hash, policy_hash].map(|hash| short_hash(&hash.finalize()));
-        let inputs = Inputs { scenario, scenario_hash, policy_hash, ..Inputs::default() };
+        let inputs = Inputs::new(path, scenario_hash, policy_hash);
         Ok(Trial { world, inputs, ..Trial::new(scene, Arc::clone(program)) })
     }
 

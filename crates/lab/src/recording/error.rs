@@ -46,24 +46,9 @@ pub enum ReadRecordingError {
     /// The file ends within a record.
     #[error("its end is missing; copy it again")]
     Cut,
-    /// The content of an attachment is not the recorded one.
-    #[error("its {name} has another hash than its metadata say; copy it again")]
-    Hash {
-        /// The name of the attachment.
-        name: &'static str,
-    },
     /// Something that every recording of a run has is missing.
     #[error("it has no {0}, so it is no recording of a run; `vibrissa run SCENARIO --record FILE` makes one")]
     Missing(&'static str),
-    /// It was written by a version with another format.
-    #[error(
-        "its format is {found}, and this program reads {}; use the version of the program that recorded it",
-        super::setup::FORMAT
-    )]
-    Format {
-        /// The format of the file.
-        found: String,
-    },
     /// The machine is not valid.
     #[error("its machine cannot be used: {0}")]
     Artifact(#[from] ArtifactError),

@@ -5,14 +5,14 @@ use std::io::Read;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use vibrissa_robot::recording::{Attachment, FileMessage, FileRecord, Records};
+use vibrissa_robot::recording::{FileMessage, FileRecord, Head, Records};
 use vibrissa_runtime::machine::Artifact;
 use vibrissa_runtime::signal::{MAX_WHISKERS, Sample};
 
 use super::channel::JsonChannel;
 use super::error::ReadRecordingError;
 use super::sample_message::SamplesMessage;
-use super::setup::{FORMAT, KIND, Setup};
+use super::setup::{KIND, Setup};
 use vibrissa_text::diagnostic::Source;
 
 /// A recording of a simulated run.
@@ -48,8 +48,7 @@ pub(super) struct RecordedWhisker {
 /// The parts of a file that a replay needs.
 #[derive(Default)]
 struct Parts {
-    identity: BTreeMap<String, String>,
-    attachments: BTreeMap<String, Vec<u8>>,
+    head: Head,
     samples: Vec<Vec<u8>>,
     ticks: Vec<Vec<u8>>,
 }
@@ -61,14 +60,11 @@ impl RunRecording {
     /// [`ReadRecordingError`] with the first problem found.
     pub fn read(input: impl Read) -> Result<Self, ReadRecordingError> {
         let parts = Parts::read(input)?;
-        if parts.identity.get("kind").is_none_or(|kind| kind != KIND) {
+        if parts.head.entry("kind") != KIND {
             return Err(ReadRecordingError::Missing("metadata of a run"));
         }
-        let format = parts.identity.get("format").map_or("", String::as_str);
-        if format != FORMAT {
-            return Err(ReadRecordingError::Format { found: format.to_owned() });
-        }
-        let setup = Setup::from_attachments(parts.attachments, parts.identity)?;
+        parts.head.check_format()?;
+        let setup = Setup::from_head(parts.head)?;
         let artifact = Artifact::from_bytes(&setup.machine)?;
         let whiskers = setup.rig.whiskers.len();
         if !(1..=MAX_WHISKERS).contains(&whiskers) {
@@ -121,16 +117,11 @@ impl Parts {
         let mut parts = Self::default();
         let mut records = Records::new(input, JsonChannel::named);
         while let Some(record) = records.next_record()? {
-            match record {
-                FileRecord::Identity(identity) => parts.identity = identity,
-                FileRecord::Attachment(Attachment { name, data }) => {
-                    parts.attachments.insert(name, data);
-                }
-                FileRecord::Message(FileMessage { channel: JsonChannel::Samples, data, .. }) => {
-                    parts.samples.push(data);
-                }
-                FileRecord::Message(FileMessage { channel: JsonChannel::Ticks, data, .. }) => parts.ticks.push(data),
-                FileRecord::Message(_) => {}
+            let Some(FileMessage { channel, data, .. }) = parts.head.add(record) else { continue };
+            match channel {
+                JsonChannel::Samples => parts.samples.push(data),
+                JsonChannel::Ticks => parts.ticks.push(data),
+                _ => {}
             }
         }
         if records.is_cut() { Err(ReadRecordingError::Cut) } else { Ok(parts) }

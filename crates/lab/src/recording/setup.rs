@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use vibrissa_robot::recording::{Attachment, sha256};
+use vibrissa_robot::recording::{Attachment, FORMAT, Head, sha256};
 use vibrissa_runtime::machine::Artifact;
 use vibrissa_runtime::rig::Rig;
 
@@ -10,8 +10,6 @@ use super::error::{ReadRecordingError, RecordError};
 use crate::trial::Trial;
 use vibrissa_text::diagnostic::Source;
 
-/// Version of the format.
-pub(super) const FORMAT: &str = "1";
 /// The kind of recording of this module: a simulated run.
 pub(super) const KIND: &str = "run";
 /// Name of the metadata record that identifies a recording.
@@ -101,19 +99,9 @@ impl Setup {
         Ok(all)
     }
 
-    /// The setup in the attachments of a recording, by their names.
-    pub(super) fn from_attachments(
-        mut attachments: BTreeMap<String, Vec<u8>>,
-        identity: BTreeMap<String, String>,
-    ) -> Result<Self, ReadRecordingError> {
-        let mut take = |name: &'static str, key: &str| {
-            let content = attachments.remove(name).ok_or(ReadRecordingError::Missing(name))?;
-            if identity.get(key) == Some(&sha256(&content)) {
-                Ok(content)
-            } else {
-                Err(ReadRecordingError::Hash { name })
-            }
-        };
+    /// The setup in the attachments of a recording.
+    pub(super) fn from_head(mut head: Head) -> Result<Self, ReadRecordingError> {
+        let mut take = |name, hash| head.take(name, hash)?.ok_or(ReadRecordingError::Missing(name));
         let (machine, rig) = (take(MACHINE, "machine_sha256")?, take(RIG, "rig_sha256")?);
         let rig = serde_json::from_slice(&rig).map_err(|error| ReadRecordingError::Message {
             topic: RIG,
@@ -121,6 +109,7 @@ impl Setup {
             reason: error.to_string(),
         })?;
         let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+        let Head { identity, mut attachments } = head;
         let policy = attachments.remove(POLICY).map(|policy| {
             let mut source = Source::new(POLICY, text(policy));
             // The map is in the order of the numbers in the names.

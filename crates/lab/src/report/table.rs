@@ -18,9 +18,12 @@ const GAP: usize = 3;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     caption: Option<String>,
-    headings: Vec<String>,
-    names: usize,
-    rows: Vec<Vec<String>>,
+    /// The headings from left to right.
+    pub headings: Vec<String>,
+    /// The number of columns that name a row.
+    pub names: usize,
+    /// The cells of every row, from left to right.
+    pub rows: Vec<Vec<String>>,
 }
 
 /// A column: its heading, and the text of a row in it.
@@ -51,24 +54,6 @@ impl Table {
     #[must_use]
     pub(crate) fn under(self, caption: impl Into<String>) -> Self {
         Self { caption: Some(caption.into()), ..self }
-    }
-
-    /// The headings from left to right.
-    #[must_use]
-    pub fn headings(&self) -> &[String] {
-        &self.headings
-    }
-
-    /// The number of columns that name a row.
-    #[must_use]
-    pub fn names(&self) -> usize {
-        self.names
-    }
-
-    /// The cells of every row, from left to right.
-    #[must_use]
-    pub fn rows(&self) -> &[Vec<String>] {
-        &self.rows
     }
 
     /// The table as text of at most 100 characters in width. The last line states the number of omitted columns, if

@@ -1,6 +1,6 @@
 //! Contacts of the platform's body in the result of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::run_result::state_name;
 use super::section::Section;
@@ -8,7 +8,7 @@ use crate::run::Trace;
 use crate::score::Score;
 
 /// Contacts of the platform's body.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Collisions {
     #[serde(flatten)]

@@ -1,12 +1,12 @@
 //! A contract of the policy in the result of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vibrissa_runtime::units::format_si;
 
 use crate::run::{ContractMargin, ContractRecord};
 
 /// A contract of the policy in the result of a run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ContractResult {
     /// Name of the state. `None` for a contract of the whole machine.
@@ -25,7 +25,7 @@ pub struct ContractResult {
 }
 
 /// The smallest margin of a contract.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SmallestMargin {
     /// The margin with its unit. It is negative in a violation.

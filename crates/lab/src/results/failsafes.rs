@@ -1,11 +1,11 @@
 //! The fallback transitions in the result of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::run::Trace;
 
 /// Fallback transitions.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Failsafes {
     /// Number of fallback transitions.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::run_result::state_name;
 use super::section::Section;
@@ -10,7 +10,7 @@ use crate::run::Trace;
 use crate::score::{InclinationFigures, Score};
 
 /// Inclination of whiskers that follow a surface.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Inclination {
     #[serde(flatten)]

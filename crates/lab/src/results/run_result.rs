@@ -10,7 +10,10 @@ use super::inclination::Inclination;
 use super::largest_error::LargestError;
 use super::section::{Keyed, Section};
 use super::whisker_response::WhiskerResponse;
-use serde::{Serialize, Serializer};
+use std::fmt::{self, Formatter};
+
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::run::{Run, Trace};
 use crate::score::{OutOfPlaneFigures, Score, StateShare};
@@ -23,7 +26,7 @@ use vibrissa_world::scene::Violation;
 ///
 /// Every key is always present. It is `null` for a figure that the run does not have. Numbers have full precision, so
 /// that results can be compared bit by bit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RunResult {
     /// Name of the scenario.
@@ -77,7 +80,7 @@ pub struct RunResult {
     #[serde(flatten)]
     pub(super) passed: Section<4>,
     /// Share of the time in each state, 0 to 1. Of nested states only the innermost counts.
-    #[serde(serialize_with = "shares")]
+    #[serde(serialize_with = "shares", deserialize_with = "read_shares")]
     #[cfg_attr(feature = "schema", schemars(with = "std::collections::BTreeMap<String, f64>"))]
     pub states: Vec<StateShare>,
     #[serde(flatten)]
@@ -107,7 +110,7 @@ impl Document for RunResult {
 }
 
 /// The friction between whiskers and objects.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ObjectFriction {
     /// Its coefficient.
     pub coefficient: f64,
@@ -140,7 +143,7 @@ pub struct Identity {
 }
 
 /// The mismatch between the simulated array and the assumed one. Its ranges are part of the scenario's hash.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MismatchIdentity {
     /// Path of its file. `None` if the scenario alone has it.
@@ -159,7 +162,7 @@ impl From<&Mismatch> for MismatchIdentity {
 }
 
 /// Hashes of everything that a run depends on. Runs with equal hashes and seed have equal results.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Hashes {
     /// Hash of the scenario.
@@ -171,7 +174,7 @@ pub struct Hashes {
 }
 
 /// Motion of tips out of the plane.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutOfPlane {
     #[serde(flatten)]
@@ -308,4 +311,42 @@ pub(super) fn state_name(trace: &Trace, state: Option<usize>) -> Option<String> 
 
 fn shares<S: Serializer>(states: &[StateShare], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(states.iter().map(|StateShare { state, share }| (state, share)))
+}
+
+/// Reads the shares in the order of the text.
+fn read_shares<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<StateShare>, D::Error> {
+    struct Shares;
+    impl<'de> Visitor<'de> for Shares {
+        type Value = Vec<StateShare>;
+
+        fn expecting(&self, f: &mut Formatter<'_>) -> fmt::Result {
+            f.write_str("the shares of states")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let next = || Some(map.next_entry().transpose()?.map(|(state, share)| StateShare { state, share }));
+            std::iter::from_fn(next).collect()
+        }
+    }
+    deserializer.deserialize_map(Shares)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+    use super::*;
+    use crate::built_in::SCENARIOS;
+    use crate::request::{Input, TrialRequest};
+    use vibrissa_world::scene::WorldKind;
+
+    #[test]
+    fn a_result_is_read_bit_for_bit_as_it_was_written() {
+        let world = Some(WorldKind::QuasiStatic);
+        let request = TrialRequest { world, ..TrialRequest::new(Input::BuiltIn(&SCENARIOS[0])) };
+        let trial = request.prepare().unwrap().trial;
+        for result in [trial.document(&trial.run().unwrap()), trial.refused("no reason".to_owned())] {
+            let read: RunResult = serde_json::from_str(&serde_json::to_string(&result).unwrap()).unwrap();
+            assert_eq!(read, result);
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Figures of a run as keys of its document.
 
 use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
 use crate::score::Score;
@@ -47,13 +47,18 @@ impl<const S: usize> Section<S> {
 
     /// The section of a run with these values (SI).
     fn new(value: impl Fn(Metric) -> Option<f64>) -> Self {
+        Self::keyed(|metric, _| value(metric).map(|value| value * metric.figure().units()))
+    }
+
+    /// The section of a run with these values in the units of their keys.
+    fn keyed(value: impl Fn(Metric, &'static str) -> Option<f64>) -> Self {
         let first = SECTIONS[S].0;
         let next = SECTIONS.get(S + 1).map(|(next, _)| *next);
         let metrics =
             Metric::ALL.into_iter().filter(|metric| *metric >= first && next.is_none_or(|next| *metric < next));
         let keyed = |metric: Metric| {
-            let value = value(metric).map(|value| value * metric.figure().units());
-            Some(Keyed { metric, key: metric.figure().key?, value })
+            let key = metric.figure().key?;
+            Some(Keyed { metric, key, value: value(metric, key) })
         };
         Self(metrics.filter_map(keyed).collect())
     }
@@ -128,10 +133,22 @@ impl<const S: usize> Serialize for Section<S> {
     }
 }
 
+impl<'de, const S: usize> Deserialize<'de> for Section<S> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let document = Value::deserialize(deserializer)?;
+        Ok(Self::keyed(|_, key| number_at(&document, &key[Self::OWNER.len()..])))
+    }
+}
+
 /// The value of a figure in the JSON document of a run, in the unit of its key. `None` if the run does not have it.
 #[must_use]
 pub fn figure_in(document: &Value, metric: Metric) -> Option<f64> {
-    let value = metric.figure().key?.split('.').try_fold(document, |value, key| value.get(key))?;
+    number_at(document, metric.figure().key?)
+}
+
+/// The number at a key with dots, a truth as 1 or 0.
+fn number_at(document: &Value, key: &str) -> Option<f64> {
+    let value = key.split('.').try_fold(document, |value, key| value.get(key))?;
     value.as_f64().or_else(|| value.as_bool().map(|truth| f64::from(u8::from(truth))))
 }
 

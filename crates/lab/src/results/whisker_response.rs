@@ -1,12 +1,12 @@
 //! The responses of whiskers in the result of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::run::Trace;
 use crate::score::Response;
 
 /// How perception follows the bends of a whisker.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WhiskerResponse {
     /// Name of the whisker.

@@ -13,9 +13,12 @@ use vibrissa_world::scene::FileReference;
 /// A sweep that has been read and checked. The files that it names have not been read.
 #[derive(Debug, Clone)]
 pub struct Sweep {
-    pub(super) name: String,
-    pub(super) policies: Vec<FileReference>,
-    pub(super) scenes: Vec<SweepScenes>,
+    /// Its name, a valid file name.
+    pub name: String,
+    /// The policies.
+    pub policies: Vec<FileReference>,
+    /// The sources of the scenes.
+    pub scenes: Vec<SweepScenes>,
     pub(super) axes: Vec<Axis>,
 }
 
@@ -40,24 +43,6 @@ impl Sweep {
     /// ```
     pub fn from_yaml(source: &Source) -> Result<Self, Vec<Diagnostic>> {
         read::read(source)
-    }
-
-    /// Its name, a valid file name.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// The policies.
-    #[must_use]
-    pub fn policies(&self) -> &[FileReference] {
-        &self.policies
-    }
-
-    /// The sources of the scenes.
-    #[must_use]
-    pub fn scenes(&self) -> &[SweepScenes] {
-        &self.scenes
     }
 
     /// Number of runs. `None` on overflow.

@@ -12,11 +12,11 @@ use super::shard::Shard;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Header {
-    /// The name of the sweep.
+    /// The name of the sweep, or of another command that runs many trials.
     pub sweep: String,
     /// The part of the sweep.
     pub shard: Shard,
-    /// Text of the sweep, which defines the list of runs.
+    /// Text of the sweep, which defines the list of runs. Empty for another command.
     pub text: String,
     /// The files that the sweep names, and the program, each with its version or a hash of its content.
     pub inputs: BTreeMap<String, String>,
@@ -27,9 +27,16 @@ impl Document for Header {
 }
 
 impl Header {
+    /// The header of the results of a command that is no sweep.
+    #[must_use]
+    pub fn new(command: &str, inputs: impl IntoIterator<Item = (String, String)>) -> Self {
+        let (sweep, text) = (command.to_owned(), String::new());
+        Self { sweep, shard: Shard::WHOLE, text, inputs: inputs.into_iter().collect() }
+    }
+
     /// The header of another part.
     #[must_use]
-    pub(crate) fn of_shard(&self, shard: Shard) -> Self {
+    pub(super) fn of_shard(&self, shard: Shard) -> Self {
         Self { shard, ..self.clone() }
     }
 
@@ -43,9 +50,9 @@ impl Header {
 
     /// A description of the difference from `other`. `None` if both are of the same sweep.
     #[must_use]
-    pub(crate) fn difference(&self, other: &Self) -> Option<String> {
+    pub(super) fn difference(&self, other: &Self) -> Option<String> {
         if self.sweep != other.sweep {
-            return Some(format!("the sweep `{}`, this one is `{}`", self.sweep, other.sweep));
+            return Some(format!("`{}`, these are those of `{}`", self.sweep, other.sweep));
         }
         if self.text != other.text {
             return Some(format!("another text of the sweep `{}`", self.sweep));

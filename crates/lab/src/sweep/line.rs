@@ -3,14 +3,15 @@
 use crate::results::Document;
 use std::collections::BTreeMap;
 
-use serde::de::{Error as _, IgnoredAny};
+use serde::de::Error as _;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::results::{CalibrationIdentity, Ending, Figures, RunResult, figure_in};
+use crate::results::{CalibrationIdentity, Ending, Figures, LargestError, RunResult, figure_in};
 use crate::sweep::SweepRun;
 
 use super::shard::run_name;
+use vibrissa_declare::figures::Metric;
 
 /// The result of a run of a sweep. Its serialised form is a line of the results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -93,18 +94,55 @@ impl SweepLine {
 }
 
 /// The result of a run, read from its line.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct ReadLine {
+    /// Hash of its key, in hexadecimal digits. It is the name of its picture.
+    pub run: String,
     /// The key of the run.
     pub key: String,
-    /// The figures of the run.
-    pub figures: Figures,
     scenes: String,
-    trial: u64,
+    /// Number of its trial.
+    pub trial: u64,
     settings: BTreeMap<String, String>,
+    /// True if all expectations of its scenario hold.
+    pub passed: bool,
+    #[serde(default)]
+    passed_but_for_tips: bool,
+    /// The outcome.
+    pub outcome: Ending,
+    /// Reason of the outcome.
+    pub reason: Option<String>,
+    /// Description of the scene.
+    pub about: Option<String>,
+    /// The calibration of the array that control assumed.
+    pub calibration: Option<CalibrationIdentity>,
+    /// The tip estimate with the largest error.
+    pub largest_error: Option<LargestError>,
+    /// A line of an older program, and one without a result, has none.
+    violations: Option<Vec<String>>,
+    #[serde(flatten)]
+    figures: Value,
 }
 
 impl ReadLine {
+    /// Descriptions of what did not hold.
+    #[must_use]
+    pub fn violations(&self) -> &[String] {
+        self.violations.as_deref().unwrap_or_default()
+    }
+
+    /// A figure in the unit of its key. `None` if the run does not have it.
+    pub(crate) fn figure(&self, metric: Metric) -> Option<f64> {
+        figure_in(&self.figures, metric)
+    }
+
+    /// The figures that are counted.
+    #[must_use]
+    pub fn figures(&self) -> Figures {
+        let Self { passed, passed_but_for_tips, outcome, .. } = *self;
+        Figures { passed, passed_but_for_tips, ..Figures::of(outcome, |metric| self.figure(metric)) }
+    }
+
     /// Checks that the line is that of the `run` with its key.
     ///
     /// # Errors
@@ -123,47 +161,18 @@ impl ReadLine {
     }
 }
 
-/// The fields of a line that are counted.
-#[derive(Debug, Deserialize)]
-struct Counted {
-    run: String,
-    key: String,
-    scenes: String,
-    trial: u64,
-    settings: BTreeMap<String, String>,
-    passed: bool,
-    #[serde(default)]
-    passed_but_for_tips: bool,
-    /// A line of an older program, and one without a result, has none.
-    violations: Option<Vec<IgnoredAny>>,
-    outcome: Ending,
-    #[serde(flatten)]
-    figures: Value,
-}
-
-/// The key and the figures of a run, read from its line.
+/// The result of a run, read from its line.
 ///
 /// # Errors
 /// If it is not the line of a run, or if two of its fields contradict each other.
 pub fn read_line(line: &str) -> serde_json::Result<ReadLine> {
-    let Counted { run, key, scenes, trial, settings, passed, passed_but_for_tips, violations, outcome, figures } =
-        serde_json::from_str(line)?;
-    if run != run_name(&key) {
+    let read: ReadLine = serde_json::from_str(line)?;
+    let ReadLine { run, key, passed, violations, .. } = &read;
+    if *run != run_name(key) {
         return Err(serde_json::Error::custom(format!("`run` is `{run}`, which is not that of the key `{key}`")));
     }
-    if violations.is_some_and(|violations| violations.is_empty() != passed) {
+    if violations.as_ref().is_some_and(|violations| violations.is_empty() != *passed) {
         return Err(serde_json::Error::custom(format!("`passed` is {passed}, which contradicts `violations`")));
     }
-    let of_run = Figures::of(outcome, |metric| figure_in(&figures, metric));
-    Ok(ReadLine { key, figures: Figures { passed, passed_but_for_tips, ..of_run }, scenes, trial, settings })
-}
-
-/// The calibration of a run, read from its line.
-#[must_use]
-pub fn read_calibration(line: &str) -> Option<CalibrationIdentity> {
-    #[derive(Deserialize)]
-    struct Calibrated {
-        calibration: Option<CalibrationIdentity>,
-    }
-    serde_json::from_str::<Calibrated>(line).ok()?.calibration
+    Ok(read)
 }

@@ -5,10 +5,10 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 
 use crate::results::{Document, Provenance};
 
+use super::header::Header;
 use super::results::ResultsError;
 
 /// Largest size of a line in bytes. A header has the text of its sweep, up to 1 MiB, and names its inputs. The line of
@@ -42,16 +42,15 @@ impl<'f> Lines<'f> {
     }
 
     /// The header. `None` if the first line is not complete.
-    pub(super) fn header<H: Document + DeserializeOwned>(&mut self) -> Result<Option<H>, ResultsError> {
-        let of = H::FORMAT;
-        let no_results = |cause: String| ResultsError::NoResults { path: self.path.to_owned(), of, cause };
+    pub(super) fn header(&mut self) -> Result<Option<Header>, ResultsError> {
+        let no_results = |cause: String| ResultsError::NoResults { path: self.path.to_owned(), cause };
         let text = self.read()?;
         let is_whole = text.ends_with(b"\n");
         if is_whole {
             let preamble: Preamble = serde_json::from_slice(&text).map_err(|cause| no_results(cause.to_string()))?;
-            if preamble.version != Some(H::VERSION) {
+            if preamble.version != Some(Header::VERSION) {
                 let version = preamble.version.map_or("no version".to_owned(), |version| format!("version {version}"));
-                let this = H::VERSION;
+                let this = Header::VERSION;
                 return Err(no_results(format!(
                     "it has {version} of the format, and this program reads version {this}"
                 )));
@@ -61,7 +60,7 @@ impl<'f> Lines<'f> {
             return header.map(Some).map_err(|cause| no_results(cause.to_string()));
         }
         // Another kind of file without an end of line must not count as an incomplete header.
-        let beginning = format!(r#"{{"format":"{}""#, H::FORMAT).into_bytes();
+        let beginning = format!(r#"{{"format":"{}""#, Header::FORMAT).into_bytes();
         let is_torn = text.starts_with(&beginning) || beginning.starts_with(&text);
         if is_torn { Ok(None) } else { Err(no_results("it has no first line".to_owned())) }
     }

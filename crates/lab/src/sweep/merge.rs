@@ -7,7 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::header::Header;
-use super::line::{ReadLine, read_line};
+use super::line::read_line;
 use super::lines::Lines;
 use super::results::{self, Indices, ResultsError, check_path};
 use super::shard::Shard;
@@ -63,7 +63,7 @@ pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merge
     for (number_of_file, path) in paths.iter().enumerate() {
         let file = files.open(path).map_err(ResultsError::file(path))?;
         let mut lines = Lines::new(path, &file);
-        let header: Header = lines.header()?.ok_or_else(|| no_header(path))?;
+        let header = lines.header()?.ok_or_else(|| no_header(path))?;
         if let Some(difference) = header.difference(&merged.header) {
             return Err(ResultsError::Other { path: path.clone(), difference });
         }
@@ -73,7 +73,7 @@ pub fn merge(paths: &[PathBuf], files: &mut CommandFiles) -> Result<Option<Merge
             let wrong = |cause| ResultsError::Line { path: path.clone(), line: number, cause };
             let line = read_line(&line).map_err(|cause| wrong(cause.to_string()))?;
             let index = indices.run_of(&line).map_err(wrong)?.index;
-            let ReadLine { key, figures, .. } = line;
+            let (figures, key) = (line.figures(), line.key);
             let end = lines.whole();
             let place = Place { file: number_of_file, start, length: usize::try_from(end - start).unwrap_or_default() };
             start = end;
@@ -98,7 +98,7 @@ fn header_of(path: &Path) -> Result<Header, ResultsError> {
 }
 
 fn no_header(path: &Path) -> ResultsError {
-    ResultsError::NoResults { path: path.to_owned(), of: Header::FORMAT, cause: "it is empty".to_owned() }
+    ResultsError::NoResults { path: path.to_owned(), cause: "it is empty".to_owned() }
 }
 
 impl Merged {
@@ -106,7 +106,6 @@ impl Merged {
         let source = Source::new(path.display().to_string(), &*header.text);
         let sweep = Sweep::from_yaml(&source).map_err(|_| ResultsError::NoResults {
             path: path.to_owned(),
-            of: Header::FORMAT,
             cause: "this version of the program cannot read the sweep that it holds".to_owned(),
         })?;
         let (figures, places) = (BTreeMap::new(), BTreeMap::new());

@@ -66,14 +66,14 @@ impl Plan {
             inputs.insert(format!("{kind} {}", path.display()), short_hash(&hash.finalize()));
         };
         let mut policies = Vec::new();
-        for file in sweep.policies() {
+        for file in &sweep.policies {
             let policy = load::program(&Sought::Policy.beside(path, &file.path), files)
                 .map_err(LoadError::named_in(&source, file))?;
             hashed("policy", &file.path, policy.hash.clone());
             policies.push(policy);
         }
         let mut scenes = Vec::new();
-        for SweepScenes { of, .. } in sweep.scenes() {
+        for SweepScenes { of, .. } in &sweep.scenes {
             let file = match of {
                 ScenesOf::Scenario(file) => file,
                 ScenesOf::Family(family) => {
@@ -120,7 +120,7 @@ impl Plan {
 
     /// The header of the results of a part.
     pub fn header(&self, shard: Shard) -> Header {
-        let (sweep, text) = (self.sweep.name().to_owned(), self.source.text.clone());
+        let (sweep, text) = (self.sweep.name.clone(), self.source.text.clone());
         Header { sweep, shard, text, inputs: self.inputs.clone() }
     }
 
@@ -129,10 +129,9 @@ impl Plan {
     /// # Errors
     /// [`TrialFault`] if a policy cannot be used.
     pub fn analysed_policies(&self, files: &mut CommandFiles) -> Result<Vec<Policy>, TrialFault> {
-        let policies = self.sweep.policies();
         let read =
             |file: &FileReference| Ok(load::policy(&Sought::Policy.beside(&self.path, &file.path), files)?.value);
-        policies.iter().map(read).collect()
+        self.sweep.policies.iter().map(read).collect()
     }
 
     /// Prepares one run of every kind, so that all errors are reported before the first run.

@@ -7,8 +7,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use vibrissa_text::system::in_words;
 
-use serde::de::DeserializeOwned;
-
 use super::header::Header;
 use super::line::{ReadLine, read_line};
 use super::lines::{LINE_LIMIT, Lines};
@@ -35,12 +33,10 @@ pub enum ResultsError {
         path: PathBuf,
     },
     /// The file has other content.
-    #[error("{} does not contain results of a {of} ({cause}); choose another path with --out", path.display())]
+    #[error("{} does not contain results of runs ({cause}); choose another path with --out", path.display())]
     NoResults {
         /// The file.
         path: PathBuf,
-        /// The expected format.
-        of: &'static str,
         /// The error of its first line.
         cause: String,
     },
@@ -103,21 +99,17 @@ impl<'s> Indices<'s> {
         Self { sweep, by_hash }
     }
 
-    /// The run with this key. `None` if the sweep has none.
-    pub(super) fn get(&self, key: &str) -> Option<SweepRun<'s>> {
-        let hash = run_hash(key);
-        let from = self.by_hash.partition_point(|&(before, _)| before < hash);
-        let same = self.by_hash.get(from..)?.iter().take_while(|&&(found, _)| found == hash);
-        let mut same = same.filter_map(|&(_, index)| self.sweep.run(index));
-        same.find(|run| run.key() == key)
-    }
-
     /// The run of a line of results.
     ///
     /// # Errors
     /// If the sweep has no run with its key, or if the line contradicts that.
     pub(super) fn run_of(&self, line: &ReadLine) -> Result<SweepRun<'s>, String> {
-        let run = self.get(&line.key).ok_or_else(|| format!("there is no run `{}` in the sweep", line.key))?;
+        let hash = run_hash(&line.key);
+        let from = self.by_hash.partition_point(|&(before, _)| before < hash);
+        let same = self.by_hash.iter().skip(from).take_while(|&&(found, _)| found == hash);
+        let mut same = same.filter_map(|&(_, index)| self.sweep.run(index));
+        let run = same.find(|run| run.key() == line.key);
+        let run = run.ok_or_else(|| format!("there is no run `{}` in the sweep", line.key))?;
         line.check(&run).map(|()| run)
     }
 }
@@ -130,13 +122,13 @@ pub struct Results {
 }
 
 impl Results {
-    /// Opens or creates the file of results at `path`, and returns the figures of its runs by index, without those that
+    /// Opens or creates the file of results of a `sweep` at `path`, and returns the figures of its runs by index, without those that
     /// have no result. An incomplete last line is removed. No other process can write to the file until this is dropped.
     ///
     /// # Errors
     /// [`ResultsError`] if the file cannot be used, or has other content than results of the part of `sweep` in
     /// `header`.
-    pub fn open(
+    pub fn of_sweep(
         path: &Path,
         header: &Header,
         provenance: &Provenance,
@@ -144,11 +136,10 @@ impl Results {
     ) -> Result<(Self, BTreeMap<u64, Figures>), ResultsError> {
         let indices = Indices::new(sweep);
         let mut there = BTreeMap::new();
-        let differs = |found: &Header| difference(found, header);
-        let results = Self::open_with(path, header, provenance, differs, |line| {
+        let results = Self::open(path, header, provenance, |line| {
             let line = read_line(line).map_err(|cause| cause.to_string())?;
             let run = indices.run_of(&line)?;
-            let ReadLine { key, figures, .. } = line;
+            let (figures, key) = (line.figures(), line.key);
             if !header.shard.has(&key) {
                 return Err(format!("this part of the sweep has no run `{key}`"));
             }
@@ -160,23 +151,21 @@ impl Results {
     }
 
     /// Opens or creates the file of results at `path`, and passes every complete line after the header to `each`. An
-    /// incomplete last line is removed. No other process can write to the file until this is dropped. `differs` describes the difference of a
-    /// header from the expected one.
+    /// incomplete last line is removed. No other process can write to the file until this is dropped.
     ///
     /// # Errors
-    /// [`ResultsError`] if the file cannot be used, if `differs` has a difference, or if `each` refuses a line.
-    pub fn open_with<H: Document + DeserializeOwned>(
+    /// [`ResultsError`] if the file cannot be used, if it has another header, or if `each` refuses a line.
+    pub fn open(
         path: &Path,
-        header: &H,
+        header: &Header,
         provenance: &Provenance,
-        differs: impl Fn(&H) -> Option<String>,
         mut each: impl FnMut(&str) -> Result<(), String>,
     ) -> Result<Self, ResultsError> {
         let failed = ResultsError::file(path);
         let file = locked(path)?;
         let mut lines = Lines::new(path, &file);
         let found = lines.header()?;
-        if let Some(difference) = found.as_ref().and_then(differs) {
+        if let Some(difference) = found.as_ref().and_then(|found| difference(found, header)) {
             return Err(ResultsError::Other { path: path.to_owned(), difference });
         }
         while let Some((line, text)) = lines.next()? {

@@ -80,7 +80,7 @@ impl SweepSummary {
             policy: run.policy().name.clone(),
             tally: Tally::new(figures),
         });
-        Self { sweep: sweep.name().to_owned(), resumed, groups: groups.collect(), curves: curves(sweep, runs) }
+        Self { sweep: sweep.name.clone(), resumed, groups: groups.collect(), curves: curves(sweep, runs) }
     }
 
     /// Number of runs that crashed or could not begin.
@@ -107,7 +107,7 @@ fn curves(sweep: &Sweep, runs: &BTreeMap<u64, Figures>) -> Vec<SweepCurve> {
     }
     let mut curves = Vec::new();
     for (axis, values) in values.into_iter().filter(|(_, values)| values.len() > 1) {
-        for (index, policy) in sweep.policies().iter().enumerate() {
+        for (index, policy) in sweep.policies.iter().enumerate() {
             let point = |value: &String| {
                 let runs = figures_of.remove(&(axis.clone(), index, value.clone()))?;
                 Some(SweepPoint { value: value.clone(), tally: Tally::new(runs) })

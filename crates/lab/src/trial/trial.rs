@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -70,6 +70,15 @@ pub struct Inputs {
     pub policy_hash: String,
     /// Wall time of reading and compiling.
     pub preparation: Duration,
+}
+
+impl Inputs {
+    /// The scenario at a path and a policy, with these hashes.
+    #[must_use]
+    pub fn new(scenario: &Path, scenario_hash: Sha256, policy_hash: Sha256) -> Self {
+        let [scenario_hash, policy_hash] = [scenario_hash, policy_hash].map(|hash| short_hash(&hash.finalize()));
+        Self { scenario: scenario.to_owned(), scenario_hash, policy_hash, ..Self::default() }
+    }
 }
 
 /// The result of a trial.

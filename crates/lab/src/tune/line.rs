@@ -1,4 +1,4 @@
-//! The file of results of a tuning.
+//! The lines of the results of a tuning.
 
 use std::collections::BTreeMap;
 
@@ -9,29 +9,6 @@ use super::objective::{Objective, rounded};
 use super::scenes::TuningScene;
 use crate::results::Document;
 use crate::trial::TrialResult;
-
-/// The first line: everything that the results depend on.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct TuningHeader {
-    /// Policy, parameters, scenes, objective, seed and program, each with a hash or its text.
-    pub inputs: BTreeMap<String, String>,
-}
-
-impl Document for TuningHeader {
-    const FORMAT: &'static str = "tuning";
-}
-
-impl TuningHeader {
-    /// A description of the difference of these inputs from `other`, if there is one.
-    #[must_use]
-    pub fn difference(&self, other: &Self) -> Option<String> {
-        let mut names = self.inputs.keys().chain(other.inputs.keys());
-        let name = names.find(|name| self.inputs.get(*name) != other.inputs.get(*name))?;
-        let [there, now] = [self, other].map(|header| header.inputs.get(name).map_or("none", String::as_str));
-        Some(format!("another tuning: {name} ({there}, now {now})"))
-    }
-}
 
 /// The result of a run of a candidate, as a line.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

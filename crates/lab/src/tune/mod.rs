@@ -11,7 +11,7 @@ mod summary;
 pub use axis::{Axis, AxisError};
 pub use candidate::Candidate;
 pub use evolution::Evolution;
-pub use line::{TunedRun, TuningHeader, TuningLine};
+pub use line::{TunedRun, TuningLine};
 pub use objective::{Objective, Term};
 pub use scenes::{CandidateError, TuningScene};
 pub use summary::{TunedFigures, TunedParameter, TunedValues, Tuning};

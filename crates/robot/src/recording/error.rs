@@ -4,7 +4,8 @@ use mcap::McapError;
 use vibrissa_runtime::control::BindError;
 use vibrissa_text::system::in_words;
 
-use super::setup::{FORMAT, SetupError};
+use super::head::FORMAT;
+use super::setup::SetupError;
 use crate::config::ConfigError;
 
 /// A recording that cannot be written.

@@ -1,13 +1,13 @@
 //! One file of a recording.
 
-use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::collections::{BTreeMap, VecDeque};
 use std::io::Read;
 
-use super::attachment::Attachment;
 use super::channel::{Channel, Message};
 use super::error::ReadError;
+use super::head::Head;
 use super::records::{FileRecord, Records};
-use super::setup::{self, FORMAT, KIND, Setup, sha256};
+use super::setup::{self, KIND, Setup};
 
 /// A file of a recording. It is read up to its end, or up to the last complete chunk if its end is missing.
 pub struct Part<R> {
@@ -25,25 +25,22 @@ impl<R: Read> Part<R> {
     /// [`ReadError`] if it is no recording that this program can replay.
     pub fn open(input: R) -> Result<Self, ReadError> {
         let mut items = Records::new(input, Channel::named);
-        let (mut identity, mut attachments, mut early) = (None, HashMap::new(), VecDeque::new());
-        while early.is_empty() || !is_complete(identity.as_ref(), &attachments) {
+        let (mut head, mut early) = (Head::default(), VecDeque::new());
+        while early.is_empty() || !is_complete(&head) {
             match items.next_record()? {
                 None => break,
-                Some(FileRecord::Identity(entries)) => identity = Some(entries),
-                Some(FileRecord::Attachment(Attachment { name, data })) => {
-                    attachments.insert(name, data);
-                }
-                Some(FileRecord::Message(message)) => early.push_back(message),
+                Some(record) => early.extend(head.add(record)),
             }
         }
-        let identity = match (identity, items.is_cut()) {
-            (Some(identity), _) => identity,
-            (None, true) => return Err(ReadError::Empty),
-            (None, false) => return Err(ReadError::Foreign),
-        };
-        check(&identity)?;
-        let setup = read_setup(attachments, &identity)?;
-        Ok(Self { setup, items, identity, early })
+        if head.identity.is_empty() {
+            return Err(if items.is_cut() { ReadError::Empty } else { ReadError::Foreign });
+        }
+        if head.entry("kind") != KIND {
+            return Err(ReadError::Kind { found: head.entry("kind").to_owned() });
+        }
+        head.check_format()?;
+        let setup = read_setup(&mut head)?;
+        Ok(Self { setup, items, identity: head.identity, early })
     }
 
     /// The machine and the configuration.
@@ -76,39 +73,18 @@ impl<R: Read> Part<R> {
 }
 
 /// True if the metadata and the attachments that they name have been read.
-fn is_complete(identity: Option<&BTreeMap<String, String>>, attachments: &HashMap<String, Vec<u8>>) -> bool {
+fn is_complete(head: &Head) -> bool {
     let names = [setup::MACHINE, setup::CONFIGURATION, setup::CONFIGURATION_TEXT].map(|(name, _)| name);
-    let is_read = |identity: &BTreeMap<String, String>, name: &str| {
-        attachments.contains_key(name) || !identity.contains_key(&format!("{name}_sha256"))
-    };
-    identity.is_some_and(|identity| names.iter().all(|name| is_read(identity, name)))
+    let is_read =
+        |name: &str| head.attachments.contains_key(name) || !head.identity.contains_key(&format!("{name}_sha256"));
+    !head.identity.is_empty() && names.into_iter().all(is_read)
 }
 
-/// Checks that this program can replay the recording.
-fn check(identity: &BTreeMap<String, String>) -> Result<(), ReadError> {
-    let entry = |key: &str| identity.get(key).cloned().unwrap_or_default();
-    match (entry("kind"), entry("format")) {
-        (kind, _) if kind != KIND => Err(ReadError::Kind { found: kind }),
-        (_, format) if format != FORMAT => Err(ReadError::Format { found: format }),
-        _ => Ok(()),
-    }
-}
-
-/// The setup in the attachments. Their hashes are compared with the metadata.
-fn read_setup(
-    mut attachments: HashMap<String, Vec<u8>>,
-    identity: &BTreeMap<String, String>,
-) -> Result<Setup, ReadError> {
-    let mut take = |name: &str| {
-        let Some(content) = attachments.remove(name) else { return Ok(None) };
-        if identity.get(&format!("{name}_sha256")) == Some(&sha256(&content)) {
-            Ok(Some(content))
-        } else {
-            Err(ReadError::Damaged(format!("the attachment `{name}` has another hash than the metadata say")))
-        }
-    };
-    let machine = take(setup::MACHINE.0)?.ok_or(ReadError::Empty)?;
-    let configuration = take(setup::CONFIGURATION.0)?.ok_or(ReadError::Empty)?;
-    let text = take(setup::CONFIGURATION_TEXT.0)?.and_then(|text| String::from_utf8(text).ok());
+/// The setup in the attachments.
+fn read_setup(head: &mut Head) -> Result<Setup, ReadError> {
+    let mut take = |(name, _): (&str, &str)| head.take(name, &format!("{name}_sha256"));
+    let machine = take(setup::MACHINE)?.ok_or(ReadError::Empty)?;
+    let configuration = take(setup::CONFIGURATION)?.ok_or(ReadError::Empty)?;
+    let text = take(setup::CONFIGURATION_TEXT)?.and_then(|text| String::from_utf8(text).ok());
     Ok(Setup::from_attachments(machine, configuration, text)?)
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 use vibrissa_runtime::machine::{Artifact, ArtifactError, Program};
 
+use super::head::FORMAT;
 use crate::config::{Config, ConfigError};
 
 /// Name and media type of the attachment with the artifact.
@@ -15,8 +16,6 @@ pub(super) const CONFIGURATION: (&str, &str) = ("configuration.json", "applicati
 /// Name and media type of the attachment with the text of the configuration.
 pub(super) const CONFIGURATION_TEXT: (&str, &str) = ("configuration.yaml", "application/yaml");
 
-/// Version of the format.
-pub(super) const FORMAT: &str = "1";
 /// Entry of the metadata with the number of the part.
 pub(super) const PART: &str = "part";
 /// The kind of recording of this module: the loop of a robot.

@@ -1,7 +1,7 @@
 //! A run as a section of a page.
 
 use maud::{Markup, html};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::figure::{figure, namespaced};
 use crate::report::number::millimetres;
@@ -15,7 +15,7 @@ use vibrissa_declare::figures::{Cell, Metric};
 use vibrissa_world::scene::Scene;
 
 /// The figures of a run for a page. They are small, while the trace of a run is large.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunFigures {
     /// The [picture](crate::report::picture) of the run (SVG).
     pub picture: String,

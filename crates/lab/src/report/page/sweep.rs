@@ -13,7 +13,7 @@ use crate::report::picture::{Axis, Curve, curve_picture};
 use crate::report::table::{NONE, known, percent};
 use crate::report::tables::summary_table;
 use crate::results::{Ending, LargestError, Provenance, Rate, Tally};
-use crate::sweep::{RunRow, SweepCurve, SweepGroup, SweepPoint, SweepSummary};
+use crate::sweep::{ReadLine, SweepCurve, SweepGroup, SweepPoint, SweepSummary};
 use vibrissa_declare::figures::Metric;
 
 /// A page with heat maps of a sweep, the table of its groups and the runs of each group. `pictures` gives the address of the picture of
@@ -22,8 +22,8 @@ use vibrissa_declare::figures::Metric;
 pub fn sweep_page(
     provenance: &Provenance,
     summary: &SweepSummary,
-    rows: &[Vec<RunRow>],
-    picture: impl Fn(&RunRow) -> Option<String>,
+    rows: &[Vec<ReadLine>],
+    picture: impl Fn(&ReadLine) -> Option<String>,
 ) -> String {
     let groups = &summary.groups;
     let (runs, passed) =
@@ -81,8 +81,8 @@ fn worst_groups(groups: &[SweepGroup]) -> Markup {
 }
 
 /// For each policy, the run with the largest error.
-fn largest_errors(groups: &[SweepGroup], rows: &[Vec<RunRow>]) -> Markup {
-    let mut worst: Vec<(usize, &SweepGroup, &RunRow, &LargestError)> = Vec::new();
+fn largest_errors(groups: &[SweepGroup], rows: &[Vec<ReadLine>]) -> Markup {
+    let mut worst: Vec<(usize, &SweepGroup, &ReadLine, &LargestError)> = Vec::new();
     let runs = groups.iter().zip(rows).enumerate().flat_map(|(index, (group, rows))| {
         rows.iter().filter_map(move |row| Some((index, group, row, row.largest_error.as_ref()?)))
     });
@@ -113,8 +113,8 @@ fn label(group: &SweepGroup) -> String {
     std::iter::once(group.scenes.clone()).chain(settings).chain([group.policy.clone()]).collect::<Vec<_>>().join(", ")
 }
 
-fn run_table(group: &SweepGroup, rows: &[RunRow], picture: impl Fn(&RunRow) -> Option<String>) -> PageTable {
-    let cells = |row: &RunRow| {
+fn run_table(group: &SweepGroup, rows: &[ReadLine], picture: impl Fn(&ReadLine) -> Option<String>) -> PageTable {
+    let cells = |row: &ReadLine| {
         let known = |figure: Option<String>| figure.unwrap_or_else(|| NONE.to_owned());
         let largest = row.largest_error.as_ref().map(|worst| worst.error_mm);
         let [mean, max] = [row.figure(Metric::ErrorMean), largest].map(|error| known(error.map(millimetres)));
@@ -131,8 +131,11 @@ fn run_table(group: &SweepGroup, rows: &[RunRow], picture: impl Fn(&RunRow) -> O
         };
         let coverage = known(row.figure(Metric::Coverage).map(|coverage| percent(coverage, 1)));
         let collisions = row.figure(Metric::Collisions).unwrap_or(0.0).to_string();
-        let reasons =
-            if row.violations.is_empty() { row.reason.clone().unwrap_or_default() } else { row.violations.join("; ") };
+        let reasons = if row.violations().is_empty() {
+            row.reason.clone().unwrap_or_default()
+        } else {
+            row.violations().join("; ")
+        };
         let about = row.about.clone().unwrap_or_default();
         let texts = [mean, max, coverage, collisions, reasons, about].map(PageCell::from);
         [PageCell::from(row.trial.to_string()), outcome, passed].into_iter().chain(texts).collect()

@@ -41,8 +41,8 @@ impl From<String> for PageCell {
 impl PageTable {
     /// A table of the terminal.
     pub(super) fn new(title: impl Into<String>, table: &Table) -> Self {
-        let rows = table.rows().iter().map(|row| row.iter().cloned().map(PageCell::from).collect());
-        Self { title: title.into(), headings: table.headings().to_vec(), names: table.names(), rows: rows.collect() }
+        let rows = table.rows.iter().map(|row| row.iter().cloned().map(PageCell::from).collect());
+        Self { title: title.into(), headings: table.headings.clone(), names: table.names, rows: rows.collect() }
     }
 
     /// The same table in which the first cell of each row opens the address of its row.

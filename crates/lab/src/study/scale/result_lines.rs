@@ -44,7 +44,7 @@ impl ResultLines {
         let result = trial.document(&trial.run()?);
         let text = sweep_text("scale.yaml", "thesis.fsm", count);
         let sweep = sweep(&text)?;
-        let header = Header { sweep: sweep.name().to_owned(), shard: Shard::WHOLE, text, inputs: BTreeMap::new() };
+        let header = Header { sweep: sweep.name.clone(), shard: Shard::WHOLE, text, inputs: BTreeMap::new() };
         let results = folder.join(format!("results-{count}.jsonl"));
         let merged = folder.join(format!("merged-{count}.jsonl"));
         let fault = |cause: io::Error| ScaleError::file(&results)(cause);
