@@ -48,7 +48,7 @@ fn mean_contact_duration(trace: &Trace) -> Option<f64> {
     for whisker in 0..trace.whiskers.len() {
         let mut touched = false;
         for tick in &trace.ticks {
-            let touches = tick.contacts[whisker].is_touching;
+            let touches = tick.whiskers[whisker].contact.is_touching;
             ticks += usize::from(touches);
             contacts += usize::from(touches && !touched);
             touched = touches;

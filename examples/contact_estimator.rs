@@ -92,7 +92,7 @@ fn evaluate(mut perception: Perception, recording: &Recording, scene: &Scene) ->
         // The trace has those whiskers that the rig has, in the order of the policy.
         let fitted: Vec<_> = perception.fitted().collect();
         for (whisker, (bound, _)) in fitted.into_iter().enumerate() {
-            if record.tips[whisker].is_none() {
+            if record.whiskers[whisker].tip.is_none() {
                 continue;
             }
             perception.record(bound);

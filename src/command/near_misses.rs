@@ -13,7 +13,7 @@ use super::options::{ArrayOptions, Format, Jobs, Settings, WorldOptions};
 use super::output;
 use super::progress::Progress;
 use super::provenance::of_trials;
-use super::trials::{calibrated, drawn, make_directory, say_calibrations};
+use super::trials::{calibrate, drawn, make_directory, say_calibrations};
 use vibrissa_lab::built_in::SCENARIOS;
 use vibrissa_lab::inspect::{Breakpoints, NearMiss, NearMisses};
 use vibrissa_lab::load::{self, LoadError, Loaded};
@@ -159,7 +159,7 @@ fn of_scenarios(arguments: &NearMissArguments, files: &mut CommandFiles) -> Resu
     let mut all: Vec<PolicyRuns> = all.into_iter().map(|(_, runs)| runs).collect();
     mismatch.check_effect(trials(&all).map(|trial| &trial.scene)).map_err(LoadError::from)?;
     for (_, trial) in all.iter_mut().flat_map(|runs| &mut runs.trials) {
-        *trial = calibrated(trial, &mismatch)?;
+        calibrate(trial, &mismatch)?;
     }
     say_calibrations(trials(&all));
     Ok(all)

@@ -19,7 +19,7 @@ use super::reports::Reports;
 use super::run_outputs::RunOutputs;
 #[cfg(any(feature = "render", feature = "viewer"))]
 use super::run_outputs::VideoOptions;
-use super::trials::{calibrated, say_calibrations};
+use super::trials::{calibrate, say_calibrations};
 use super::values::parse_seed;
 use super::watch::watch;
 use vibrissa_lab::load::{GivenMismatch, LoadError, check_noise_seed};
@@ -178,7 +178,7 @@ pub(super) fn prepared_trials(arguments: &RunArguments, files: &mut CommandFiles
     mismatch.check_effect(trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
     check_noise_seed(arguments.seed, trials.iter().map(|prepared| &prepared.trial.scene)).map_err(LoadError::from)?;
     for Prepared { trial, .. } in &mut trials {
-        *trial = calibrated(trial, &mismatch)?;
+        calibrate(trial, &mismatch)?;
     }
     say_calibrations(trials.iter().map(|prepared| &prepared.trial));
     Ok(trials)

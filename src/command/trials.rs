@@ -34,8 +34,13 @@ pub(super) struct Finished {
 /// The trial whose control knows the calibration of its array.
 pub(super) fn calibrated(trial: &Trial, array: &GivenMismatch) -> Result<Trial, Failure> {
     let mut trial = trial.clone();
-    array.calibrate(&mut trial).map_err(Failure::calibration(&trial.inputs.scenario))?;
+    calibrate(&mut trial, array)?;
     Ok(trial)
+}
+
+/// The same in place. A scene may be large.
+pub(super) fn calibrate(trial: &mut Trial, array: &GivenMismatch) -> Result<(), Failure> {
+    array.calibrate(trial).map_err(Failure::calibration(&trial.inputs.scenario))
 }
 
 /// Says which calibrations the arrays of trials have.

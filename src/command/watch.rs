@@ -11,7 +11,7 @@ use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher};
 #[cfg(feature = "live")]
 use crate::live::RunSetup;
 use vibrissa_lab::results::Provenance;
-use vibrissa_lab::run::{Trace, Watcher as RunWatcher};
+use vibrissa_lab::run::{TickRecord, Trace, Watcher as RunWatcher};
 use vibrissa_lab::score::Statistics;
 use vibrissa_lab::trial::{ExecuteError, Trial, TrialResult};
 use vibrissa_text::file::CommandFiles;
@@ -103,7 +103,7 @@ fn print_second(trial: &Trial, trace: &Trace) -> Result<(), Failure> {
     let now = seconds(trace);
     let recent = trace.ticks.iter().rev().take_while(|tick| tick.time > now - 1.0);
     let surfaces = &trial.scene.truth.surfaces;
-    let errors = recent.flat_map(|tick| tick.tips.iter().flatten()).map(|&tip| surfaces.distance(tip));
+    let errors = recent.flat_map(TickRecord::tips).map(|tip| surfaces.distance(tip));
     let error = Statistics::of(errors.collect()).map_or("no tips".to_owned(), |error| {
         format!("error {:.2} mm, at most {:.2} mm", error.mean() * 1e3, error.max() * 1e3)
     });

@@ -58,13 +58,13 @@ impl Sketch {
             self.contours = self.tips.clone();
         }
         self.platform.add(raised(body.position, self.top));
-        let whiskers = self.tips.iter_mut().zip(&mut self.contours).zip(tick.tip_ends.iter().zip(&tick.tips));
-        for ((tip, contour), (end, recorded)) in whiskers {
-            if let Some(end) = end {
-                tip.add(raised(*end, self.top));
+        let whiskers = self.tips.iter_mut().zip(&mut self.contours).zip(&tick.whiskers);
+        for ((tip, contour), whisker) in whiskers {
+            if let Some(end) = whisker.tip_end {
+                tip.add(raised(end, self.top));
             }
-            if let Some(recorded) = recorded {
-                contour.add(raised(*recorded, self.top));
+            if let Some(recorded) = whisker.tip {
+                contour.add(raised(recorded, self.top));
             }
         }
     }

@@ -59,7 +59,7 @@ fn a_run_stops_in_the_first_tick_in_which_a_state_is_active_or_a_condition_holds
     let trace = plain("box").run.trace;
     let named = |name: &str| trace.states.iter().position(|state| state == name);
     let first = |wanted: usize| trace.ticks.iter().position(|tick| tick.state == Some(wanted)).unwrap();
-    let is_bent = |tick: &TickRecord| tick.deflections[0].abs() > 100e-6;
+    let is_bent = |tick: &TickRecord| tick.whiskers[0].deflection.abs() > 100e-6;
     let bent = trace.ticks.iter().position(is_bent).unwrap();
     let lasting = 3 + trace.ticks.windows(4).position(|ticks| ticks.iter().all(is_bent)).unwrap();
     // Four consecutive ticks last 100 ms.

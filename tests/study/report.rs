@@ -95,7 +95,7 @@ fn retrieved() -> Run {
         mark,
         whisker: 0,
         tick,
-        tip_world: run.trace.ticks[tick].tips[0].unwrap(),
+        tip_world: run.trace.ticks[tick].whiskers[0].tip.unwrap(),
     };
     run.trace.marks = [(Mark::Lost, 90), (Mark::Found, 120), (Mark::Lost, 300), (Mark::Found, 345)].map(mark).into();
     run
@@ -284,7 +284,7 @@ fn names_cannot_break_a_picture() {
 #[test]
 fn a_tip_far_off_is_left_out_of_the_map() {
     let mut run = half_round();
-    run.trace.ticks[3].tips[0] = Some(Point2::new(1e308, 0.0));
+    run.trace.ticks[3].whiskers[0].tip = Some(Point2::new(1e308, 0.0));
     see(&draw(&scene(), "thesis", &run));
 }
 
@@ -301,7 +301,7 @@ proptest! {
         let mut run = run_with(&[tips]);
         for ((tick, (x, y, deflection)), state) in run.trace.ticks.iter_mut().zip(bodies).zip(states) {
             tick.body.position = Point2::new(x, y);
-            tick.deflections[0] = deflection;
+            tick.whiskers[0].deflection = deflection;
             tick.body_touches = state == 0;
             tick.state = (state < 3).then_some(state);
         }
@@ -333,7 +333,7 @@ fn every_retrieval_has_a_strip_with_a_frame_for_the_edge_and_for_each_state() {
     // A whisker that records no tip at once goes on to do so in another state.
     let mut late = run;
     for tick in &mut late.trace.ticks[120..=150] {
-        tick.tips[0] = None;
+        tick.whiskers[0].tip = None;
     }
     late.trace.ticks[130..=160].iter_mut().for_each(|tick| tick.state = Some(1));
     let strips = retrieval_picture(&scene, "thesis", &late.trace).unwrap();

@@ -49,8 +49,8 @@ impl Observation {
     pub(crate) fn new(trace: &Trace, tick: &TickRecord, traced_m: f64, ending: Option<&Ending>) -> Self {
         let body = &tick.body;
         let width = trace.whiskers.len();
-        let contacts = || tick.contacts.iter().take(width);
-        let tips = contacts().flat_map(|contact| match contact.tip_world {
+        let whiskers = || tick.whiskers.iter().take(width);
+        let tips = whiskers().flat_map(|whisker| match whisker.contact.tip_world {
             Some(tip) => {
                 let tip = body.vector_from_world(tip - body.position);
                 [tip.x, tip.y]
@@ -61,8 +61,8 @@ impl Observation {
             time_s: tick.time,
             position: [body.position.x, body.position.y],
             heading_rad: body.heading,
-            deflections: tick.deflections.iter().take(width).copied().collect(),
-            touching: contacts().map(|contact| contact.is_touching).collect(),
+            deflections: whiskers().map(|whisker| whisker.deflection).collect(),
+            touching: whiskers().map(|whisker| whisker.contact.is_touching).collect(),
             tips_body: tips.collect(),
             body_touches: tick.body_touches,
             traced_m,

@@ -21,19 +21,22 @@ pub(crate) fn dictionary<'py>(py: Python<'py>, trace: &Trace) -> PyResult<Bound<
     columns.each_vector("velocity_m_s", |tick| tick.command.velocity_world.into())?;
     columns.each("yaw_rate_rad_s", |tick| tick.command.yaw_rate)?;
     columns.each("body_touches", |tick| tick.body_touches)?;
-    columns.whiskers("deflection_rad", |tick, whisker| tick.deflections[whisker])?;
-    columns.whiskers("touching", |tick, whisker| tick.contacts[whisker].is_touching)?;
-    columns.whiskers("springs", |tick, whisker| tick.snap_offs[whisker])?;
-    columns.whiskers("inclination_rad", |tick, whisker| tick.contacts[whisker].inclination.unwrap_or(f64::NAN))?;
+    columns.whiskers("deflection_rad", |tick, whisker| tick.whiskers[whisker].deflection)?;
+    columns.whiskers("touching", |tick, whisker| tick.whiskers[whisker].contact.is_touching)?;
+    columns.whiskers("springs", |tick, whisker| tick.whiskers[whisker].snap_off)?;
+    columns
+        .whiskers("inclination_rad", |tick, whisker| tick.whiskers[whisker].contact.inclination.unwrap_or(f64::NAN))?;
     columns.whisker_vectors("tip_m", |tick, whisker| {
-        tick.contacts[whisker].tip_world.map_or(NONE, |tip| tip.coords.into())
+        tick.whiskers[whisker].contact.tip_world.map_or(NONE, |tip| tip.coords.into())
     })?;
-    columns.whiskers("tip_spread_m", |tick, whisker| tick.tip_deviations[whisker])?;
-    columns
-        .whisker_vectors("tangent", |tick, whisker| tick.contacts[whisker].tangent_world.map_or(NONE, Into::into))?;
-    columns.whiskers("recorded", |tick, whisker| tick.tips[whisker].is_some())?;
-    columns
-        .whisker_vectors("true_tip_m", |tick, whisker| tick.tip_ends[whisker].map_or(NONE, |tip| tip.coords.into()))?;
+    columns.whiskers("tip_spread_m", |tick, whisker| tick.whiskers[whisker].tip_deviation)?;
+    columns.whisker_vectors("tangent", |tick, whisker| {
+        tick.whiskers[whisker].contact.tangent_world.map_or(NONE, Into::into)
+    })?;
+    columns.whiskers("recorded", |tick, whisker| tick.whiskers[whisker].tip.is_some())?;
+    columns.whisker_vectors("true_tip_m", |tick, whisker| {
+        tick.whiskers[whisker].tip_end.map_or(NONE, |tip| tip.coords.into())
+    })?;
     for mark in [Mark::Lost, Mark::Found] {
         columns.marks(mark)?;
     }

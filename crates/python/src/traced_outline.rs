@@ -37,8 +37,8 @@ impl TracedOutline {
     /// Adds the recorded tips of the tick with this index. Returns the length that they trace (m).
     pub(crate) fn add(&mut self, index: usize, tick: &TickRecord) -> f64 {
         let mut gained = 0.0;
-        for (last, tip) in self.last.iter_mut().zip(tick.tips) {
-            let Some(tip) = tip.filter(|tip| tip.x.is_finite() && tip.y.is_finite()) else { continue };
+        for (last, whisker) in self.last.iter_mut().zip(&tick.whiskers) {
+            let Some(tip) = whisker.tip.filter(|tip| tip.x.is_finite() && tip.y.is_finite()) else { continue };
             let continues =
                 |&(before, place): &(usize, Point2)| index - before <= MAX_BREAK && (tip - place).norm() <= MAX_STEP;
             let from = last.filter(continues).map_or(tip, |(_, place)| place);

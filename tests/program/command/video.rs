@@ -170,8 +170,8 @@ fn whiskers_and_contours_are_where_the_trace_says() {
         let (last, picture) = (trace.ticks.last().unwrap(), shown.pictures.len() - 1);
         let place = |x: f64, y: f64, z: f64| pixel(&camera, shown.size, Point3::new(x, y, z));
         for (name, end, colour) in [
-            (&trace.whiskers[0], last.tip_ends[0].unwrap(), FIRST),
-            (&trace.whiskers[1], last.tip_ends[1].unwrap(), SECOND),
+            (&trace.whiskers[0], last.whiskers[0].tip_end.unwrap(), FIRST),
+            (&trace.whiskers[1], last.whiskers[1].tip_end.unwrap(), SECOND),
         ] {
             assert!(has_colour(&shown, picture, place(end.x, end.y, 0.0), 2.0, colour, 24), "{kind}: tip of {name}");
             let whisker = trial.scene.rig.whiskers.iter().find(|whisker| whisker.name == *name).unwrap();

@@ -162,7 +162,10 @@ fn a_trace_has_the_whiskers_that_the_rig_has() {
     let same = plain.ticks.iter().zip(&with.ticks);
     assert!(same.clone().count() > 100);
     for (one, other) in same {
-        assert_eq!((one.body, one.tips[0], one.deflections[0]), (other.body, other.tips[1], other.deflections[1]));
+        assert_eq!(
+            (one.body, one.whiskers[0].tip, one.whiskers[0].deflection),
+            (other.body, other.whiskers[1].tip, other.whiskers[1].deflection)
+        );
     }
-    assert!(plain.ticks.iter().any(|tick| tick.tips[0].is_some()));
+    assert!(plain.ticks.iter().any(|tick| tick.whiskers[0].tip.is_some()));
 }

@@ -8,7 +8,7 @@ use vibrissa::family::{Draw, FAMILIES};
 use vibrissa::geometry::{Point2, Pose};
 use vibrissa::mujoco::MujocoWorld;
 use vibrissa::policy::{compile, gather};
-use vibrissa::run::Run;
+use vibrissa::run::{Run, TickRecord};
 use vibrissa::scenario;
 use vibrissa::scene::{Scene, WorldKind, WorldSetup};
 use vibrissa::trial::{Trial, in_parallel, processors};
@@ -29,7 +29,7 @@ fn run(scene: &Scene, program: &Program, world: WorldSetup) -> Run {
 fn contour(scene: &Scene, program: &Program, prune: bool) -> Vec<Point2> {
     let world = WorldSetup { kind: WorldKind::Mujoco, prune };
     let run = run(scene, program, world);
-    run.trace.ticks.iter().flat_map(|tick| tick.tips.into_iter().flatten()).collect()
+    run.trace.ticks.iter().flat_map(TickRecord::tips).collect()
 }
 
 /// Runs that many scenes of every family for so long (s), with and without; how many points there were.

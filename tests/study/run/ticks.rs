@@ -39,15 +39,15 @@ fn there_is_a_line_for_every_tick_with_its_time_state_pose_and_command() {
         assert_eq!(line["yaw_rate_rad_s"], 0.0);
         assert_eq!(line["whiskers"][0]["whisker"], "w0");
         assert_eq!(line["whiskers"][0]["deflection_rad"], 3e-4);
-        assert_eq!(line["whiskers"][0]["springs"], tick.snap_offs[0]);
-        assert_eq!(line["whiskers"][0]["recorded"], tick.tips[0].is_some());
+        assert_eq!(line["whiskers"][0]["springs"], tick.whiskers[0].snap_off);
+        assert_eq!(line["whiskers"][0]["recorded"], tick.whiskers[0].tip.is_some());
     }
 }
 
 #[test]
 fn a_tip_is_told_whether_recorded_or_not_and_what_is_not_known_is_null() {
     let mut run = run();
-    run.trace.ticks[0].contacts[0] = Contact {
+    run.trace.ticks[0].whiskers[0].contact = Contact {
         is_touching: true,
         tip_world: Some(Point2::new(1.0, 2.0)),
         tangent_world: Some(Vector2::new(0.0, 1.0)),
@@ -80,7 +80,7 @@ fn a_run_that_failed_has_no_state_at_its_end() {
 #[test]
 fn a_tick_has_the_margin_of_its_inclination() {
     let mut run = run();
-    run.trace.ticks[1].contacts[0].inclination = Some(100_f64.to_radians());
+    run.trace.ticks[1].whiskers[0].contact.inclination = Some(100_f64.to_radians());
     let lines = lines(&run);
     let told = |tick: usize, key: &str| lines[tick]["whiskers"][0][key].as_f64();
     assert_eq!(told(0, "inclination_margin_rad"), None);
@@ -94,8 +94,8 @@ fn a_result_has_the_least_margin_and_the_states_beyond_the_limit() {
     let mut run = run();
     let inclinations = [None, Some(80.0), Some(100.0), Some(110.0), Some(95.0)];
     for (tick, inclination) in run.trace.ticks.iter_mut().zip(inclinations) {
-        tick.contacts[0].inclination = inclination.map(f64::to_radians);
-        tick.contacts[0].tip_world = Some(Point2::new(tick.time, 2.0));
+        tick.whiskers[0].contact.inclination = inclination.map(f64::to_radians);
+        tick.whiskers[0].contact.tip_world = Some(Point2::new(tick.time, 2.0));
     }
     let figures = InclinationFigures::of(&run.trace, FRICTION).unwrap();
     let ticks = &run.trace.ticks;
@@ -103,7 +103,7 @@ fn a_result_has_the_least_margin_and_the_states_beyond_the_limit() {
         (figures.largest.whisker, figures.largest.time, figures.largest.state),
         (0, ticks[3].time, ticks[3].state)
     );
-    assert_eq!(figures.largest.tip_world, ticks[3].contacts[0].tip_world);
+    assert_eq!(figures.largest.tip_world, ticks[3].whiskers[0].contact.tip_world);
     assert!((figures.margin.to_degrees() - (FRICTION.atan().to_degrees() - 20.0)).abs() < 1e-9);
     // 95 deg is within the limit, which friction moves to 95.7 deg.
     assert!((figures.beyond - 2.0 * run.trace.period).abs() < 1e-12);

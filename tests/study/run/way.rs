@@ -31,7 +31,9 @@ proptest! {
     fn of_several_whiskers_a_side_the_mean_counts(extra in 0.01..0.2_f64) {
         let mut trace = between(-0.1, 0.1, 30);
         for tick in &mut trace.ticks {
-            tick.tips[2] = tick.tips[0].map(|tip| Point2::new(extra, tip.y));
+            let mut third = tick.whiskers[0];
+            third.tip = third.tip.map(|tip| Point2::new(extra, tip.y));
+            tick.whiskers = [&*tick.whiskers, &[third]].concat().into();
         }
         let error = axis_error(&trace, &tunnel()).unwrap();
         prop_assert!((error.mean - 0.5 * (0.5 * (0.1 + extra) - 0.1).abs()).abs() < 1e-12);
@@ -42,10 +44,10 @@ proptest! {
 fn only_ticks_with_both_walls_and_beside_the_axis_count() {
     let mut trace = between(-0.1, 0.12, 60);
     for tick in &mut trace.ticks[..30] {
-        tick.tips[1] = None;
+        tick.whiskers[1].tip = None;
     }
     for tick in &mut trace.ticks[30..40] {
-        tick.tips[0] = tick.tips[0].map(|tip| Point2::new(0.3, tip.y));
+        tick.whiskers[0].tip = tick.whiskers[0].tip.map(|tip| Point2::new(0.3, tip.y));
     }
     let error = axis_error(&trace, &tunnel()).unwrap();
     assert!((error.mean - (10.0 * 0.1 + 20.0 * 0.01) / 30.0).abs() < 1e-12);

@@ -7,10 +7,10 @@ use vibrissa::built_in::SCENARIOS;
 use vibrissa::diagnostic::Source;
 use vibrissa::geometry::{Point2, Pose, Vector2, unit};
 use vibrissa::request::{Input, PolicyInput, TrialRequest};
-use vibrissa::run::{Run, TickRecord, Trace};
+use vibrissa::run::{Run, TickRecord, Trace, WhiskerRecord};
 use vibrissa::scene::{Outcome, Stop, WorldKind};
 use vibrissa::trial::Trial;
-use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
+use vibrissa_runtime::signal::Command;
 
 /// Time between ticks (s).
 const PERIOD: f64 = 1.0 / 30.0;
@@ -21,26 +21,21 @@ pub(crate) fn run_with(tips: &[Vec<Option<Point2>>]) -> Run {
     let count = tips.iter().map(Vec::len).max().unwrap_or(0);
     let ticks = (0..count).map(|index| {
         let time = (index + 1) as f64 * PERIOD;
-        let mut tick = TickRecord {
+        let whiskers = tips.iter().enumerate().map(|(whisker, tips)| WhiskerRecord {
+            deflection: if whisker % 2 == 0 { 3e-4 } else { -3e-4 },
+            tip: tips.get(index).copied().flatten(),
+            tip_deviation: 1e-3,
+            ..WhiskerRecord::default()
+        });
+        TickRecord {
             time,
             body: Pose { position: Point2::new(0.0, 0.05 * time), heading: std::f64::consts::FRAC_PI_2 },
             state: Some(usize::from(index >= count / 3)),
-            deflections: [0.0; MAX_WHISKERS],
-            tips: [None; MAX_WHISKERS],
-            contacts: Default::default(),
-            tip_deviations: [1e-3; MAX_WHISKERS],
+            whiskers: whiskers.collect(),
             command: Command { velocity_world: Vector2::new(0.0, 0.05), yaw_rate: 0.0 },
             fallback: None,
-            tip_ends: [None; MAX_WHISKERS],
             body_touches: false,
-            out_of_plane: [None; MAX_WHISKERS],
-            snap_offs: [false; MAX_WHISKERS],
-        };
-        for (whisker, tips) in tips.iter().enumerate() {
-            tick.tips[whisker] = tips.get(index).copied().flatten();
-            tick.deflections[whisker] = if whisker % 2 == 0 { 3e-4 } else { -3e-4 };
         }
-        tick
     });
     Run {
         outcome: Outcome::Completed,

@@ -148,7 +148,7 @@ fn a_break_in_the_tips_at_a_corner_is_what_the_corner_costs() {
     assert!((costly[0].corner.point - Point2::new(0.2, 0.0)).norm() < 1e-12);
     // The platform of these runs goes at 50 mm/s.
     assert!((costly[0].time - 2.0).abs() < 1e-9 && (costly[0].path - 0.1).abs() < 1e-9);
-    let edge = trace.ticks[last].tips[0].unwrap();
+    let edge = trace.ticks[last].whiskers[0].tip.unwrap();
     assert!((costly[0].edge.unwrap() - (0.2 - edge.x)).abs() < 1e-12);
     let figures = CornerFigures::new(&trace, &square().into()).unwrap();
     assert!((figures.time.unwrap().moments.mean - 0.5).abs() < 1e-9 && (figures.time.unwrap().max - 2.0).abs() < 1e-9);
@@ -159,7 +159,7 @@ fn a_break_in_the_tips_at_a_corner_is_what_the_corner_costs() {
 fn marks_say_when_the_way_round_a_corner_ends() {
     let (mut trace, last) = broken(59);
     // A contact is recorded, and lost again, before the whisker is back for good.
-    trace.ticks[last + 30].tips[0] = Some(Point2::new(0.2, 0.01));
+    trace.ticks[last + 30].whiskers[0].tip = Some(Point2::new(0.2, 0.01));
     assert_eq!(excursions(&trace).len(), 2);
     let mark = |mark, tick| MarkRecord { mark, whisker: 0, tick, tip_world: Point2::new(0.2, 0.01) };
     trace.marks = vec![mark(Mark::Lost, last + 4), mark(Mark::Found, last + 31)];

@@ -29,8 +29,8 @@ fn swung(most: f64, perceived: impl Fn(f64) -> Option<f64>) -> (Run, Rig) {
             tick.body.point_to_world(Point2::new(whisker.base_body.x + x, whisker.base_body.y + y))
         };
         let bend = most * (0.2 * index as f64).sin();
-        tick.tip_ends[0] = Some(tip(bend));
-        tick.contacts[0].tip_world = perceived(bend).map(tip);
+        tick.whiskers[0].tip_end = Some(tip(bend));
+        tick.whiskers[0].contact.tip_world = perceived(bend).map(tip);
     }
     (run, rig)
 }

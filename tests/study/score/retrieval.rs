@@ -190,10 +190,10 @@ fn a_policy_that_loses_an_edge_and_finds_it_again_is_measured_from_its_last_touc
     let found = retrievals(&run.trace);
     assert_eq!(found.len(), 1);
     let ticks = &run.trace.ticks;
-    let last = (0..90).rev().find(|&tick| ticks[tick].tips[0].is_some()).unwrap();
-    let again = (last + 1..ticks.len()).find(|&tick| ticks[tick].deflections[0].abs() > 2e-5).unwrap();
+    let last = (0..90).rev().find(|&tick| ticks[tick].whiskers[0].tip.is_some()).unwrap();
+    let again = (last + 1..ticks.len()).find(|&tick| ticks[tick].whiskers[0].deflection.abs() > 2e-5).unwrap();
     let turned = ticks.iter().position(|tick| tick.state == Some(1)).unwrap();
-    assert_eq!(Some(found[0].edge_world), ticks[last].tips[0]);
+    assert_eq!(Some(found[0].edge_world), ticks[last].whiskers[0].tip);
     assert!(near(found[0].time, (again - last) as f64 / 30.0));
     // A command counts for the tick after it.
     let due = (0.05 * (turned - last) as f64 + 0.03 * (again - turned) as f64) / 30.0;

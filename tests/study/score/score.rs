@@ -249,7 +249,7 @@ proptest! {
         let place = |index: usize, error: f64| Some(Point2::from((0.05 + error) * unit(0.1 * index as f64)));
         let mut run = run_with(&[tips.iter().enumerate().map(|(index, &(error, _))| place(index, error)).collect()]);
         for (tick, (_, deviation)) in run.trace.ticks.iter_mut().zip(&tips) {
-            tick.tip_deviations[0] = *deviation;
+            tick.whiskers[0].tip_deviation = *deviation;
         }
         let outliers = tips.iter().filter(|(error, deviation)| *error > 1e-4 + 4.0 * deviation).count();
         let error = Score::new(&run, &disk(0.05).into(), &Rig::default()).error.unwrap();
@@ -264,9 +264,9 @@ proptest! {
         run.trace.whiskers = vec!["r0".to_owned()];
         let radius = Rig::default().whiskers[0].shaft.radius_at(1.0);
         for tick in &mut run.trace.ticks {
-            let tip = tick.tips[0].unwrap();
+            let tip = tick.whiskers[0].tip.unwrap();
             let ahead = tip.y.atan2(tip.x) + late / 0.05;
-            tick.tip_ends[0] = Some(Point2::from((0.05 + radius - sunk) * unit(ahead)));
+            tick.whiskers[0].tip_end = Some(Point2::from((0.05 + radius - sunk) * unit(ahead)));
         }
         let error = Score::new(&run, &disk(0.05).into(), &Rig::default()).error.unwrap();
         prop_assert!(error.max < 1e-12);

@@ -6,7 +6,7 @@ use vibrissa::built_in::DEFAULT_POLICY;
 use vibrissa::family::{Draw, FAMILIES, Family};
 use vibrissa::geometry::{Contour, Point2, TunnelAxis};
 use vibrissa::results::{Ending, Figures, Tally};
-use vibrissa::run::{Run, Trace};
+use vibrissa::run::{Run, TickRecord, Trace};
 use vibrissa::scene::{Outcome, Scene, WorldKind};
 use vibrissa::score::tips;
 use vibrissa::trial::{Trial, TrialResult, in_parallel, processors};
@@ -24,8 +24,12 @@ const ROUNDING: f64 = 2e-3;
 fn lines(trace: &Trace) -> Vec<(Point2, Point2)> {
     let mut lines = Vec::new();
     for whisker in 0..trace.whiskers.len() {
-        let tips: Vec<_> =
-            trace.ticks.iter().enumerate().filter_map(|(tick, record)| Some((tick, record.tips[whisker]?))).collect();
+        let tips: Vec<_> = trace
+            .ticks
+            .iter()
+            .enumerate()
+            .filter_map(|(tick, record)| Some((tick, record.whiskers[whisker].tip?)))
+            .collect();
         lines.extend(tips.iter().map(|&(_, tip)| (tip, tip)));
         let near = |ends: &&[(usize, Point2)]| ends[1].0 - ends[0].0 <= 3 && (ends[1].1 - ends[0].1).norm() <= 0.01;
         lines.extend(tips.windows(2).filter(near).map(|ends| (ends[0].1, ends[1].1)));
@@ -82,7 +86,7 @@ fn wrong_passage(scene: &Scene, axis: &TunnelAxis, trace: &Trace, lines: &[(Poin
     if (to - from).abs() < axis.line().length() - 0.062 {
         return Some(format!("between the walls from {from} m to {to} m of {} m only", axis.line().length()));
     }
-    let tips = trace.ticks.iter().flat_map(|tick| tick.tips.into_iter().flatten());
+    let tips = trace.ticks.iter().flat_map(TickRecord::tips);
     let on_wall = |tip: &Point2| left.iter().chain(&right).any(|point| (point - tip).norm() <= TRACED + STEP);
     let places: Vec<f64> = tips.filter(on_wall).map(along).collect();
     let (start, end) = places.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &place| (a.min(place), b.max(place)));
@@ -171,7 +175,11 @@ fn a_run_with_a_recorded_tip_more_than_2_mm_off_does_not_pass() {
         let mut run = trial.run().unwrap().run;
         assert!(trial.document(&trial.scored(run.clone())).violations.is_empty(), "{family}");
         // One tip that is up to 25 mm off, towards the body between both walls.
-        let mut tips = run.trace.ticks.iter_mut().flat_map(|tick| tick.tips.iter_mut().map(|tip| (tick.body, tip)));
+        let mut tips = run
+            .trace
+            .ticks
+            .iter_mut()
+            .flat_map(|tick| tick.whiskers.iter_mut().map(|whisker| (tick.body, &mut whisker.tip)));
         let (body, tip) = tips.find_map(|(body, tip)| Some((body, tip.as_mut()?))).unwrap();
         *tip += 25e-3 * (body.position - *tip).normalize();
         let result = trial.scored(run);

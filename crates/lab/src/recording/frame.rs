@@ -29,7 +29,7 @@ impl RecordedFrame {
         });
         Some(Self {
             samples,
-            tick: trace.ticks[index],
+            tick: trace.ticks[index].clone(),
             marks: last_of(&trace.marks, |mark| mark.tick == index),
             plots: plots.collect(),
             messages: last_of(&trace.messages, |message| message.tick == index),

@@ -88,9 +88,10 @@ impl View {
         let shafts = self.whiskers.iter().enumerate().filter_map(|(index, &in_rig)| {
             let whisker = self.rig.whiskers.get(in_rig)?;
             // A replay knows no true tips.
-            let tip_world = tick.tip_ends[index].filter(|tip| tip.coords.iter().all(|part| part.is_finite()))?;
+            let tip_world =
+                tick.whiskers[index].tip_end.filter(|tip| tip.coords.iter().all(|part| part.is_finite()))?;
             let tip = tick.body.point_from_world(tip_world);
-            Some(line(&shaft_points(whisker, tick.deflections[index], tip), false, 1.5e-3, WHISKER))
+            Some(line(&shaft_points(whisker, tick.whiskers[index].deflection, tip), false, 1.5e-3, WHISKER))
         });
         update("whiskers", BODY, tick.time, shafts.collect())
     }
@@ -120,7 +121,7 @@ impl View {
 
     /// The estimated tips of the whiskers that touch.
     pub(super) fn tips(&self, tick: &TickRecord) -> PointCloud {
-        let contacts = tick.contacts.iter().take(self.whiskers.len());
+        let contacts = tick.whiskers.iter().take(self.whiskers.len()).map(|whisker| whisker.contact);
         let tips: Vec<Point2> =
             contacts.filter(|contact| contact.is_touching).filter_map(|contact| contact.tip_world).collect();
         cloud(&tips, tick.time)
@@ -134,7 +135,7 @@ impl View {
     /// Adds the recorded tips of a tick. The result is the contour, if it has grown by an eighth since the last message. So all
     /// messages together are at most nine times as long as the last one.
     pub(super) fn grown(&mut self, tick: &TickRecord) -> Option<PointCloud> {
-        self.contour.extend(tick.tips.iter().flatten());
+        self.contour.extend(tick.tips());
         (self.contour.len() > self.sent + self.sent / 8 + 8).then(|| self.contour(tick.time))
     }
 
@@ -220,29 +221,23 @@ pub(super) fn nanoseconds(time: f64) -> u64 {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
     use super::*;
+    use crate::run::WhiskerRecord;
     use proptest::prelude::*;
     use vibrissa_runtime::signal::Command;
     use vibrissa_world::geometry::Pose as BodyPose;
 
     /// A tick of a platform at `body` whose first whisker has its tip at `tip_world` and has recorded it.
     fn tick(body: BodyPose, tip_world: Point2) -> TickRecord {
-        let mut tick = TickRecord {
+        let whisker = WhiskerRecord { tip: Some(tip_world), tip_end: Some(tip_world), ..WhiskerRecord::default() };
+        TickRecord {
             time: 1.25,
             body,
             state: None,
-            deflections: Default::default(),
-            tips: Default::default(),
-            contacts: Default::default(),
-            tip_deviations: Default::default(),
+            whiskers: Box::new([whisker]),
             command: Command::STOP,
             fallback: None,
-            tip_ends: Default::default(),
             body_touches: false,
-            out_of_plane: Default::default(),
-            snap_offs: Default::default(),
-        };
-        (tick.tip_ends[0], tick.tips[0]) = (Some(tip_world), Some(tip_world));
-        tick
+        }
     }
 
     fn view() -> View {

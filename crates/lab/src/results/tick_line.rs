@@ -4,7 +4,7 @@ use super::Document;
 use super::shown_value::ShownValue;
 use serde::Serialize;
 
-use crate::run::{TickRecord, Trace};
+use crate::run::{TickRecord, Trace, WhiskerRecord};
 use vibrissa_runtime::mechanics::out_of_plane_margin;
 
 /// One control tick, in the units of its keys. Its serialised form is a line that `run --ticks` writes.
@@ -160,22 +160,24 @@ fn message_lines(trace: &Trace, tick: usize) -> Vec<MessageLine<'_>> {
 fn whisker_lines<'a>(trace: &'a Trace, index: usize, tick: &TickRecord, friction: f64) -> Vec<WhiskerLine<'a>> {
     let first_mark = trace.marks.partition_point(|mark| mark.tick < index);
     let marks = || trace.marks[first_mark..].iter().take_while(|mark| mark.tick == index);
-    let line = |(whisker, name): (usize, &'a String)| WhiskerLine {
+    let line = |(whisker, (name, record)): (usize, (&'a String, &WhiskerRecord))| WhiskerLine {
         whisker: name,
-        deflection_rad: tick.deflections[whisker],
-        touching: tick.contacts[whisker].is_touching,
-        springs: tick.snap_offs[whisker],
-        inclination_rad: tick.contacts[whisker].inclination,
-        inclination_margin_rad: tick.contacts[whisker]
+        deflection_rad: record.deflection,
+        touching: record.contact.is_touching,
+        springs: record.snap_off,
+        inclination_rad: record.contact.inclination,
+        inclination_margin_rad: record
+            .contact
             .inclination
             .map(|inclination| out_of_plane_margin(inclination, friction)),
-        out_of_plane: tick.out_of_plane[whisker]
+        out_of_plane: record
+            .out_of_plane
             .map(|motion| OutOfPlaneLine { distance_m: motion.distance, slips: motion.slips }),
-        tip_m: tick.contacts[whisker].tip_world.map(|tip| tip.coords.into()),
-        tip_spread_m: tick.tip_deviations[whisker],
-        tangent: tick.contacts[whisker].tangent_world.map(Into::into),
-        recorded: tick.tips[whisker].is_some(),
+        tip_m: record.contact.tip_world.map(|tip| tip.coords.into()),
+        tip_spread_m: record.tip_deviation,
+        tangent: record.contact.tangent_world.map(Into::into),
+        recorded: record.tip.is_some(),
         marks: marks().filter(|mark| mark.whisker == whisker).map(|mark| mark.mark.name()).collect(),
     };
-    trace.whiskers.iter().enumerate().map(line).collect()
+    trace.whiskers.iter().zip(&tick.whiskers).enumerate().map(line).collect()
 }

@@ -17,4 +17,4 @@ pub use passage_watch::PassageWatch;
 pub use run_map::{MapStage, RunMap};
 pub use stepped_run::{Step, SteppedRun};
 pub(crate) use stopwatch::Stopwatch;
-pub use trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
+pub use trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace, WhiskerRecord};

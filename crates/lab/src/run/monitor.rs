@@ -17,7 +17,7 @@ use super::passage_watch::PassageWatch;
 use super::run_map::GrowthRecord;
 use super::stall_watch::StallWatch;
 use super::stopwatch::Stopwatch;
-use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace};
+use super::trace::{Contact, MESSAGES_KEPT, MarkRecord, MessageRecord, PlotRecord, TickRecord, Trace, WhiskerRecord};
 
 /// Initial capacity in ticks, an hour at 30 Hz. A longer run allocates more.
 const INITIAL_CAPACITY: usize = 108_000;
@@ -121,22 +121,28 @@ impl Monitor {
         if let (Some(growth), Some(map)) = (&mut self.growth, control.map()) {
             growth.add(self.trace.ticks.len(), map);
         }
+        let ending = self.ending(control, ticked.status, &tick);
         self.trace.ticks.push(tick);
-        if ticked.status == Status::Failed {
+        ending
+    }
+
+    /// The ending if the run ends with this tick, which is recorded next.
+    fn ending(&mut self, control: &Control, status: Status, tick: &TickRecord) -> Option<Ending> {
+        if status == Status::Failed {
             return Some(Ending::failed(control.machine().failure().map(ToString::to_string)));
         }
-        if ticked.status == Status::Succeeded {
+        if status == Status::Succeeded {
             return Some(Ending { reason: control.machine().success().map(str::to_owned), ..Ending::COMPLETED });
         }
         if let Some(aim) = &self.stop.loop_closed {
-            for (watch, tip) in self.loops.iter_mut().zip(tick.tips) {
-                watch.update(tick.time, tip, tick.body.position);
+            for (watch, whisker) in self.loops.iter_mut().zip(&tick.whiskers) {
+                watch.update(tick.time, whisker.tip, tick.body.position);
             }
             if self.loops.iter().any(|watch| watch.is_closed(aim.within, aim.after)) {
                 return Some(Ending::COMPLETED);
             }
         }
-        if self.stop.reached.is_some_and(|aim| is_reached(&tick, &aim)) {
+        if self.stop.reached.is_some_and(|aim| is_reached(tick, &aim)) {
             return Some(Ending::COMPLETED);
         }
         if let Some(share) = self.stop.passed {
@@ -150,10 +156,10 @@ impl Monitor {
         if self.stop.mapped && control.map().is_some_and(Map::is_complete) {
             return Some(Ending::COMPLETED);
         }
-        if let Some(reason) = self.stall.as_mut().and_then(|watch| watch.stalls(&tick)) {
+        if let Some(reason) = self.stall.as_mut().and_then(|watch| watch.stalls(tick)) {
             return Some(Ending::failed(Some(reason)));
         }
-        if self.trace.ticks.len() < self.most_ticks {
+        if self.trace.ticks.len() + 1 < self.most_ticks {
             return None;
         }
         let time = self.stop.time;
@@ -226,31 +232,24 @@ fn marks(control: &Control, tick: usize) -> impl Iterator<Item = MarkRecord> {
 
 fn record(control: &Control, command: Command, fallback: Option<Fallback>, world: &dyn World) -> TickRecord {
     let (perception, machine) = (control.perception(), control.machine());
-    let mut tick = TickRecord {
+    let whiskers = perception.fitted().map(|(bound, in_rig)| WhiskerRecord {
+        deflection: perception.base_angle(bound),
+        tip: perception.recorded_tip(bound),
+        contact: contact(perception, bound),
+        tip_deviation: perception.recorded_deviation(bound),
+        tip_end: Some(world.tip(in_rig)),
+        out_of_plane: world.out_of_plane(in_rig),
+        snap_off: world.snapped_off(in_rig),
+    });
+    TickRecord {
         time: perception.time(),
         body: perception.pose(),
         state: machine.failure().is_none().then(|| machine.state()),
-        deflections: [0.0; MAX_WHISKERS],
-        tips: [None; MAX_WHISKERS],
-        contacts: Default::default(),
-        tip_deviations: [0.0; MAX_WHISKERS],
+        whiskers: whiskers.collect(),
         command,
         fallback,
-        tip_ends: [None; MAX_WHISKERS],
         body_touches: world.body_touches(),
-        out_of_plane: [None; MAX_WHISKERS],
-        snap_offs: [false; MAX_WHISKERS],
-    };
-    for (whisker, (bound, in_rig)) in perception.fitted().enumerate() {
-        tick.snap_offs[whisker] = world.snapped_off(in_rig);
-        tick.out_of_plane[whisker] = world.out_of_plane(in_rig);
-        tick.tip_ends[whisker] = Some(world.tip(in_rig));
-        tick.deflections[whisker] = perception.base_angle(bound);
-        tick.tips[whisker] = perception.recorded_tip(bound);
-        tick.contacts[whisker] = contact(perception, bound);
-        tick.tip_deviations[whisker] = perception.recorded_deviation(bound);
     }
-    tick
 }
 
 fn contact(perception: &Perception, whisker: usize) -> Contact {

@@ -27,8 +27,8 @@ impl StallWatch {
     pub(super) fn stalls(&mut self, tick: &TickRecord) -> Option<String> {
         let Stalled { within, after } = self.limit;
         let mut is_new = self.body.add(tick.body.position, within);
-        for (positions, tip) in self.tips.iter_mut().zip(tick.tips) {
-            is_new |= tip.is_some_and(|tip| positions.add(tip, within));
+        for (positions, whisker) in self.tips.iter_mut().zip(&tick.whiskers) {
+            is_new |= whisker.tip.is_some_and(|tip| positions.add(tip, within));
         }
         if is_new {
             self.newest = tick.time;
@@ -68,6 +68,7 @@ impl Positions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::WhiskerRecord;
     use vibrissa_runtime::signal::Command;
     use vibrissa_world::geometry::{Pose, Vector2, unit};
 
@@ -76,24 +77,14 @@ mod tests {
     /// The time (s) at which a run stalls with these positions of the platform and these tips, ten a second.
     fn given_up(ticks: impl Iterator<Item = (Point2, Option<Point2>)>) -> Option<f64> {
         let mut watch = StallWatch::new(LIMIT);
-        let mut ticks = ticks.enumerate().map(|(index, (position, tip))| {
-            let mut tips = [None; MAX_WHISKERS];
-            tips[0] = tip;
-            TickRecord {
-                time: index as f64 * 0.1,
-                body: Pose { position, heading: 0.0 },
-                state: None,
-                deflections: [0.0; MAX_WHISKERS],
-                tips,
-                contacts: Default::default(),
-                tip_deviations: [0.0; MAX_WHISKERS],
-                command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
-                fallback: None,
-                tip_ends: [None; MAX_WHISKERS],
-                body_touches: false,
-                out_of_plane: [None; MAX_WHISKERS],
-                snap_offs: [false; MAX_WHISKERS],
-            }
+        let mut ticks = ticks.enumerate().map(|(index, (position, tip))| TickRecord {
+            time: index as f64 * 0.1,
+            body: Pose { position, heading: 0.0 },
+            state: None,
+            whiskers: Box::new([WhiskerRecord { tip, ..WhiskerRecord::default() }]),
+            command: Command { velocity_world: Vector2::zeros(), yaw_rate: 0.0 },
+            fallback: None,
+            body_touches: false,
         });
         ticks.find(|tick| watch.stalls(tick).is_some()).map(|tick| tick.time)
     }

@@ -1,7 +1,7 @@
 //! Trace of a run, tick by tick.
 
 use vibrissa_runtime::machine::{Fallback, Mark, OutputKind, ShownMessage};
-use vibrissa_runtime::signal::{Command, MAX_WHISKERS};
+use vibrissa_runtime::signal::Command;
 use vibrissa_world::geometry::{Point2, Pose, Vector2};
 use vibrissa_world::world::OutOfPlane;
 
@@ -69,7 +69,7 @@ pub struct MarkRecord {
 }
 
 /// One tick.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TickRecord {
     /// Time since the start of the run (s).
     pub time: f64,
@@ -77,28 +77,33 @@ pub struct TickRecord {
     pub body: Pose,
     /// Index of the active state after the tick. `None` after a failure.
     pub state: Option<usize>,
-    /// Filtered base angles (rad), counter-clockwise positive.
-    pub deflections: [f64; MAX_WHISKERS],
-    /// Tip estimates that the policy recorded (m, world frame).
-    pub tips: [Option<Point2>; MAX_WHISKERS],
-    /// The perceived contacts of the whiskers, recorded or not.
-    pub contacts: [Contact; MAX_WHISKERS],
-    /// Standard deviation of each tip position (m), as reported by the contact estimator.
-    pub tip_deviations: [f64; MAX_WHISKERS],
+    /// The whiskers of the trace, in its order. A run has many ticks and few whiskers, so there is no room for more.
+    pub whiskers: Box<[WhiskerRecord]>,
     /// The command of the tick.
     pub command: Command,
     /// The fallback transition of the tick, if there was one.
     pub fallback: Option<Fallback>,
-    /// True position of the end of each whisker's axis (m, world frame). `None` for a whisker that the trace does not
-    /// have. Policies cannot read it.
-    pub tip_ends: [Option<Point2>; MAX_WHISKERS],
     /// True if the platform's body touched something since the last tick. Policies cannot read it.
     pub body_touches: bool,
-    /// Motion of each whisker's tip out of the plane since the last tick. `None` in a planar world. Policies cannot read
-    /// it.
-    pub out_of_plane: [Option<OutOfPlane>; MAX_WHISKERS],
-    /// True for each whisker with a snap-off since the last tick, for instance at a corner. Policies cannot read it.
-    pub snap_offs: [bool; MAX_WHISKERS],
+}
+
+/// A whisker in a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WhiskerRecord {
+    /// Filtered base angle (rad), counter-clockwise positive.
+    pub deflection: f64,
+    /// Tip estimate that the policy recorded (m, world frame).
+    pub tip: Option<Point2>,
+    /// The perceived contact, recorded or not.
+    pub contact: Contact,
+    /// Standard deviation of the tip position (m), as reported by the contact estimator.
+    pub tip_deviation: f64,
+    /// True position of the end of the axis (m, world frame). `None` if it is not known. Policies cannot read it.
+    pub tip_end: Option<Point2>,
+    /// Motion of the tip out of the plane since the last tick. `None` in a planar world. Policies cannot read it.
+    pub out_of_plane: Option<OutOfPlane>,
+    /// True if there was a snap-off since the last tick, for instance at a corner. Policies cannot read it.
+    pub snap_off: bool,
 }
 
 /// The perceived contact of a whisker.
@@ -116,6 +121,13 @@ pub struct Contact {
     pub inclination: Option<f64>,
 }
 
+impl TickRecord {
+    /// The tip estimates that the policy recorded (m, world frame), in the order of whiskers.
+    pub fn tips(&self) -> impl Iterator<Item = Point2> {
+        self.whiskers.iter().filter_map(|whisker| whisker.tip)
+    }
+}
+
 impl Trace {
     /// The ticks with a fallback transition, and its cause.
     pub fn fallbacks(&self) -> impl Iterator<Item = (&TickRecord, Fallback)> {
@@ -124,6 +136,17 @@ impl Trace {
 
     /// The recorded tips of one whisker with the ticks' indices.
     pub fn tips(&self, whisker: usize) -> impl Iterator<Item = (usize, Point2)> {
-        self.ticks.iter().enumerate().filter_map(move |(index, tick)| Some((index, tick.tips[whisker]?)))
+        self.ticks.iter().enumerate().filter_map(move |(index, tick)| Some((index, tick.whiskers[whisker].tip?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run of 6000 s has 180 000 ticks.
+    #[test]
+    fn a_tick_takes_little_memory() {
+        assert!(size_of::<TickRecord>() <= 128 && size_of::<WhiskerRecord>() <= 160);
     }
 }

@@ -46,8 +46,8 @@ fn midpoint(tick: &TickRecord) -> Option<Point2> {
         return None;
     }
     let mut sides = [(Vector2::zeros(), 0.0); 2];
-    for tip_world in tick.tips.iter().flatten().filter(|tip| is_finite(tip)) {
-        let is_left = tick.body.point_from_world(*tip_world).y > 0.0;
+    for tip_world in tick.tips().filter(is_finite) {
+        let is_left = tick.body.point_from_world(tip_world).y > 0.0;
         let (sum, count) = &mut sides[usize::from(is_left)];
         *sum += tip_world.coords;
         *count += 1.0;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::run::Trace;
+use crate::run::{Trace, WhiskerRecord};
 use vibrissa_runtime::mechanics::out_of_plane_margin;
 use vibrissa_world::geometry::Point2;
 
@@ -57,7 +57,7 @@ impl InclinationFigures {
 /// All whiskers with an inclination, in the order of ticks.
 fn inclined(trace: &Trace) -> impl Iterator<Item = Inclined> {
     trace.ticks.iter().flat_map(|tick| {
-        tick.contacts.iter().enumerate().filter_map(|(whisker, contact)| {
+        tick.whiskers.iter().enumerate().filter_map(|(whisker, WhiskerRecord { contact, .. })| {
             let inclination = contact.inclination?;
             Some(Inclined { inclination, whisker, time: tick.time, tip_world: contact.tip_world, state: tick.state })
         })

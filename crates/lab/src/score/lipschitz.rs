@@ -37,7 +37,7 @@ pub(super) fn stretches_below(
 }
 
 /// The rounding error (m) of a sum of lengths.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// The point of a set of curves that is nearest to a place.
 #[derive(Debug, Clone, Copy)]

@@ -33,7 +33,7 @@ impl OutOfPlaneFigures {
         for whisker in 0..trace.whiskers.len() {
             let mut was_slipping = false;
             for tick in &trace.ticks {
-                let Some(motion) = tick.out_of_plane[whisker] else { continue };
+                let Some(motion) = tick.whiskers[whisker].out_of_plane else { continue };
                 let figures = figures.get_or_insert_default();
                 figures.distance = figures.distance.max(motion.distance);
                 if motion.slips && !was_slipping {

@@ -46,8 +46,8 @@ pub fn responses(trace: &Trace, rig: &Rig) -> Vec<Response> {
         let fitted = rig.whiskers.iter().find(|fitted| fitted.name == *name)?;
         // A whisker without a reading shows no bend.
         let bends = trace.ticks.iter().filter_map(|tick| {
-            let perceived = tick.contacts[whisker].tip_world.map_or(0.0, |tip| bend(tick, fitted, tip));
-            Some((bend(tick, fitted, tick.tip_ends[whisker]?), perceived))
+            let perceived = tick.whiskers[whisker].contact.tip_world.map_or(0.0, |tip| bend(tick, fitted, tip));
+            Some((bend(tick, fitted, tick.whiskers[whisker].tip_end?), perceived))
         });
         let bends: Vec<_> = bends.filter(|(bend, perceived)| bend.is_finite() && perceived.is_finite()).collect();
         let bent = bends.iter().filter(|(bend, _)| bend.abs() > BENT).count();

@@ -78,8 +78,8 @@ pub fn mark_positions(trace: &Trace) -> Vec<MarkPosition> {
     let mut ticks = trace.ticks.iter().enumerate().peekable();
     let place = |&MarkRecord { mark, whisker, tick, tip_world }: &MarkRecord| {
         while let Some((index, record)) = ticks.next_if(|&(index, _)| index <= tick) {
-            for (last, tip) in last.iter_mut().zip(record.tips) {
-                *last = tip.filter(is_finite).map(|tip| (index, tip)).or(*last);
+            for (last, whisker) in last.iter_mut().zip(&record.whiskers) {
+                *last = whisker.tip.filter(is_finite).map(|tip| (index, tip)).or(*last);
             }
         }
         let edge = last.get(whisker)?.filter(|_| mark == Mark::Lost);

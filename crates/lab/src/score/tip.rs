@@ -58,8 +58,9 @@ pub fn tips(trace: &Trace, surfaces: &ContourSet, rig: &Rig) -> Vec<Tip> {
         .flat_map(|whisker| valid_tips(trace, whisker).map(move |(tick, tip_world)| (tick, whisker, tip_world)))
         .map(|(tick, whisker, tip_world)| {
             let record = &trace.ticks[tick];
-            let (error, standard_deviation) = (surfaces.distance(tip_world), record.tip_deviations[whisker]);
-            let offset = record.tip_ends[whisker].and_then(|end| offset(tip_world, end, radii[whisker], surfaces));
+            let (error, standard_deviation) = (surfaces.distance(tip_world), record.whiskers[whisker].tip_deviation);
+            let offset =
+                record.whiskers[whisker].tip_end.and_then(|end| offset(tip_world, end, radii[whisker], surfaces));
             Tip { tick, whisker, tip_world, error, standard_deviation, offset }
         })
         .collect()

@@ -313,7 +313,7 @@ impl ClosedLoop {
                 time: after.time,
                 states: past.facts().hello.chart.path(after.state),
                 pose: Some([body.position.x, body.position.y, body.heading]),
-                contour: record.tips.iter().flatten().map(|tip| [tip.x, tip.y]).collect(),
+                contour: record.tips().map(|tip| [tip.x, tip.y]).collect(),
             };
             (frame, after)
         });

@@ -7,7 +7,7 @@ use super::map::MapGrowth;
 use super::message::{ChartInfo, ContourFrame, Frame, Metrics, Timing, WhiskerFrame};
 use super::shadow::Shadow;
 use super::shape::shaft_points;
-use crate::run::{PlotRecord, TickRecord, Trace};
+use crate::run::{PlotRecord, TickRecord, Trace, WhiskerRecord};
 use crate::score::CoverageTracker;
 use vibrissa_world::geometry::{Point2, Pose, unit};
 use vibrissa_world::scene::Truth;
@@ -84,9 +84,9 @@ impl Frames {
     /// The recorded tips of the tick with this index.
     fn contour(&mut self, index: usize, tick: &TickRecord) -> Vec<ContourFrame> {
         let mut contour = Vec::new();
-        for whisker in 0..self.bound.len() {
-            let Some(tip) = tick.tips.get(whisker).copied().flatten() else { continue };
-            let spread = tick.tip_deviations.get(whisker).copied().filter(|spread| spread.is_finite());
+        for (whisker, record) in tick.whiskers.iter().enumerate().take(self.bound.len()) {
+            let Some(tip) = record.tip else { continue };
+            let spread = Some(record.tip_deviation).filter(|spread| spread.is_finite());
             let error = self.truth.as_ref().map(|truth| truth.surfaces.distance(tip)).filter(|error| error.is_finite());
             for (sum, value) in [(&mut self.errors, error), (&mut self.spreads, spread)] {
                 if let Some(value) = value {
@@ -105,9 +105,9 @@ impl Frames {
     fn whiskers(&self, tick: &TickRecord) -> Vec<WhiskerFrame> {
         let whisker = |(index, &in_rig): (usize, &usize)| {
             let whisker = self.rig.whiskers.get(in_rig)?;
-            let (base_angle, contact) = (*tick.deflections.get(index)?, tick.contacts.get(index)?);
+            let &WhiskerRecord { deflection: base_angle, contact, tip_end, .. } = tick.whiskers.get(index)?;
             let is_known = |tip: &Point2| tip.coords.iter().all(|coordinate| coordinate.is_finite());
-            let true_tip = tick.tip_ends.get(index).copied().flatten().filter(is_known);
+            let true_tip = tip_end.filter(is_known);
             let estimated = contact.tip_world.filter(is_known);
             let straight = whisker.base_body + whisker.shaft.length * unit(whisker.direction_body + base_angle);
             let tip_body = true_tip.or(estimated).map_or(straight, |tip| tick.body.point_from_world(tip));

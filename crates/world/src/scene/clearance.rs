@@ -19,7 +19,17 @@ pub(crate) enum Overlap {
 /// Returns the first part of the rig at `pose`, with undeflected whiskers, that overlaps or touches the interior of
 /// `object`.
 pub(crate) fn overlap(rig: &Rig, pose: &Pose, object: &Contour) -> Option<Overlap> {
-    let outline = rig.platform.outline_body().map(|corner| pose.point_to_world(corner));
+    let outline_body = rig.platform.outline_body();
+    // Most objects of a large scene are out of reach.
+    let of_whiskers = rig
+        .whiskers
+        .iter()
+        .map(|whisker| whisker.base_body.coords.norm() + whisker.shaft.length + whisker.shaft.radius);
+    let reach = outline_body.iter().map(|corner| corner.coords.norm()).chain(of_whiskers).fold(0.0, f64::max);
+    if object.bounding_box().distance(pose.position) > reach + 2.0 * TOUCHING {
+        return None;
+    }
+    let outline = outline_body.map(|corner| pose.point_to_world(corner));
     let sides = (0..4).map(|side| (outline[side], outline[(side + 1) % 4]));
     let swallowed = is_within(&outline, object.point_at(0.0));
     if swallowed || sides.into_iter().any(|(from, to)| !is_clear(object, from, to, TOUCHING)) {

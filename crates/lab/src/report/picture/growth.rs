@@ -7,7 +7,7 @@ use super::map::{DOT, Map, OUTLINE};
 use super::touched::ground;
 use crate::report::outline::Outline;
 use crate::report::style::{self, Anchor, px, text};
-use crate::run::{RunMap, Trace};
+use crate::run::{RunMap, TickRecord, Trace};
 use vibrissa_world::scene::Scene;
 
 /// Width of the picture (px).
@@ -73,7 +73,7 @@ fn drawn(
         inside = inside.add(map.outline(solid.outline()).stroked(style::INK, OUTLINE));
     }
     let mut dots = Outline::default();
-    let tips = trace.ticks.iter().take(tick + 1).flat_map(|tick| tick.tips.into_iter().flatten());
+    let tips = trace.ticks.iter().take(tick + 1).flat_map(TickRecord::tips);
     tips.map(|tip| map.position(tip)).filter(|position| map.shows(*position)).for_each(|position| dots.dot(position));
     inside = inside.add(dots.dots(style::ROUTE, 0.5 * DOT));
     let mut label = String::new();

@@ -31,7 +31,7 @@ fn curve_base(whisker: &Whisker, bend: &ShaftShape) -> [Vector2<f64>; 4] {
 /// The elastica with the measured base angle whose tip is nearest to the estimated position. `None` without contact.
 fn bend(whisker: &Whisker, trace: &Trace, tick: &TickRecord) -> Option<ShaftShape> {
     let index = trace.whiskers.iter().position(|name| *name == whisker.name)?;
-    let (base_angle, contact) = (tick.deflections[index], tick.contacts[index]);
+    let (base_angle, contact) = (tick.whiskers[index].deflection, tick.whiskers[index].contact);
     if !contact.is_touching || base_angle == 0.0 || !base_angle.is_finite() {
         return None;
     }

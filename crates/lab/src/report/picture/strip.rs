@@ -78,7 +78,8 @@ fn end_tick(trace: &Trace, retrieval: &Retrieval) -> usize {
     let lost_again =
         |mark: &&MarkRecord| mark.mark == Mark::Lost && mark.whisker == retrieval.whisker && mark.tick > found;
     let limit = trace.marks.iter().find(lost_again).map_or(trace.ticks.len(), |mark| mark.tick);
-    let has_tip = |&tick: &usize| trace.ticks.get(tick).is_some_and(|tick| tick.tips[retrieval.whisker].is_some());
+    let has_tip =
+        |&tick: &usize| trace.ticks.get(tick).is_some_and(|tick| tick.whiskers[retrieval.whisker].tip.is_some());
     (found..limit).find(has_tip).unwrap_or_else(|| limit.saturating_sub(1).max(found))
 }
 
@@ -145,7 +146,7 @@ fn frame(
     let circle = Circle::new().set("cx", px(x)).set("cy", px(y)).set("r", px(map.scale * retrieval.radius));
     inside = inside.add(circle.set("fill", "none").set("stroke", style::AXIS).set("stroke-dasharray", "4 3"));
     let mut dots = Outline::default();
-    let tips = trace.ticks.iter().take(step + 1).filter_map(|tick| tick.tips.get(retrieval.whisker).copied().flatten());
+    let tips = trace.ticks.iter().take(step + 1).filter_map(|tick| tick.whiskers.get(retrieval.whisker)?.tip);
     tips.map(|tip| map.position(tip)).filter(|position| map.shows(*position)).for_each(|position| dots.dot(position));
     let colour = style::WHISKERS.get(retrieval.whisker).copied().unwrap_or(style::INK);
     inside = inside.add(dots.dots(colour, 0.6 * DOT));

@@ -115,7 +115,7 @@ impl<'a> Timeline<'a> {
         let names = trace.whiskers.iter().cloned().zip(style::WHISKERS.map(str::to_owned));
         let names: Vec<_> = names.collect();
         self.heading("Deflection (µrad)", &names, 3.0);
-        let readings = |whisker: usize| trace.ticks.iter().map(move |tick| tick.deflections[whisker] * 1e6);
+        let readings = |whisker: usize| trace.ticks.iter().map(move |tick| tick.whiskers[whisker].deflection * 1e6);
         let scale = self.strip_around((0..names.len()).flat_map(readings));
         for (whisker, (_, colour)) in names.iter().enumerate() {
             let mut curve = Outline::default();

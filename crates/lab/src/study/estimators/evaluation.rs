@@ -89,7 +89,7 @@ pub(in crate::study) fn evaluate(
         // A trace has only the whiskers that the rig has.
         let fitted = whiskers.iter().enumerate().filter_map(|(bound, index)| index.map(|index| (bound, index)));
         for (whisker, (bound, in_rig)) in fitted.enumerate() {
-            if tick.tips[whisker].is_none() {
+            if tick.whiskers[whisker].tip.is_none() {
                 continue;
             }
             asked += 1;

@@ -89,10 +89,10 @@ impl StressCase {
         let run = result.run;
         let mut trace = run.trace;
         // Only these may be infinite: beyond the range of a contact estimator the position is unknown.
-        for deviation in
-            trace.ticks.iter_mut().flat_map(|tick| &mut tick.tip_deviations).filter(|deviation| deviation.is_infinite())
-        {
-            *deviation = 0.0;
+        for whisker in trace.ticks.iter_mut().flat_map(|tick| &mut tick.whiskers) {
+            if whisker.tip_deviation.is_infinite() {
+                whisker.tip_deviation = 0.0;
+            }
         }
         let finite = is_finite(&format!("{document:?}")) && is_finite(&format!("{trace:?}"));
         self.row(ending, run.reason, time, finite)
