@@ -91,9 +91,10 @@ fn a_report_goes_on_with_its_finished_runs_and_says_the_same() {
     let mismatch = ["--mismatch", drawn.to_str().unwrap(), "--uncalibrated"];
     let many = [&["--simulator", "quasistatic", "--jobs", "1"][..], &mismatch].concat();
     let families = ["families", "convex-corner", "thin-wall", "--count", "12"];
-    for (arguments, name) in
-        [(&["bench", "--policy", "policies/thesis.fsm"][..], "results.json"), (&families[..], "results.jsonl")]
-    {
+    for (arguments, name) in [
+        (&["bench", "--ideal", "--policy", "policies/thesis.fsm"][..], "results.json"),
+        (&families[..], "results.jsonl"),
+    ] {
         let [whole, parted] = ["whole", "parted"].map(|part| directory.join(format!("{}-{part}", arguments[0])));
         let [whole_out, parted_out] = [&whole, &parted].map(|path| path.display().to_string());
         let arguments = |out| [arguments, &many, &["--out", out]].concat();

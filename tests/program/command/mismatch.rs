@@ -370,15 +370,32 @@ fn an_array_that_is_not_calibrated_needs_a_mismatch() {
 /// Pages are stamped by figures of ideal arrays. A change of the calibration changes none of them.
 #[cfg(feature = "sim")]
 #[test]
-fn the_readme_has_the_figures_that_its_command_prints() {
-    let readme = fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
-    let row: Vec<&str> = readme.lines().find(|line| line.starts_with("| box |")).unwrap().split('|').collect();
-    for (policy, column) in [("policies/thesis.fsm", 4), ("policies/vibrissa.fsm", 6)] {
-        let array = ["--mismatch", "scenarios/mismatch/plausible.yaml", "--json"];
-        let output = vibrissa(&[&["run", "scenarios/box.yaml", "--policy", policy][..], &array].concat());
+fn pages_have_the_figures_that_their_commands_print() {
+    let error = |arguments: &[&str]| {
+        let output = vibrissa(&[&["run", "scenarios/box.yaml", "--json"], arguments].concat());
         let results: Value = serde_json::from_str(&stdout(&output)).unwrap();
-        let mean = results[0]["error_mm"]["mean"].as_f64().unwrap();
-        let renew = "run `cargo x results mismatch calibration pareto`";
-        assert_eq!(format!("{mean:.3}"), row[column].trim(), "{policy}: {renew}");
+        format!("{:.3}", results[0]["error_mm"]["mean"].as_f64().unwrap())
+    };
+    let cell = |page: &str, section: &str, column: usize| {
+        let text = fs::read_to_string(Path::new(ROOT).join(page)).unwrap();
+        let below = text.split_once(section).unwrap().1;
+        below
+            .lines()
+            .find(|line| line.starts_with("| box |"))
+            .unwrap()
+            .split('|')
+            .nth(column)
+            .unwrap()
+            .trim()
+            .to_owned()
+    };
+    for (name, column) in [("thesis", 6), ("vibrissa", 7)] {
+        let policy = format!("policies/{name}.fsm");
+        let ideal = cell("README.md", "## Results", column);
+        assert_eq!(error(&["--policy", &policy]), ideal, "{policy}: run `cargo x results bench`");
+        let array = ["--policy", &policy, "--mismatch", "scenarios/mismatch/plausible.yaml"];
+        let plausible =
+            cell("docs/results/mismatch.md", &format!("## Arrays under `{policy}`").replace("policies/", ""), 3);
+        assert_eq!(error(&array), plausible, "{policy}: run `cargo x results mismatch calibration pareto`");
     }
 }

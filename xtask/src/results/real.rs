@@ -85,7 +85,11 @@ fn conditions<'a>(outputs: &'a [Json], policy: &str) -> Result<Conditions<'a>, N
 /// The mismatch of a group of the sweep of single differences.
 fn difference(group: &Json) -> Result<String, NoKey> {
     let mismatch = text(group, "settings.mismatch")?;
-    Ok(if mismatch == "{}" { "no difference".to_owned() } else { format!("`{mismatch}`") })
+    Ok(match mismatch {
+        "{}" => "no difference".to_owned(),
+        drawn if drawn.contains("from:") => "a drawn array without the differences above".to_owned(),
+        single => format!("`{single}`"),
+    })
 }
 
 fn is_of_convex(group: &Json) -> Result<bool, NoKey> {
