@@ -87,7 +87,7 @@ pub const ROOM_POLICY: TextFile = text_file!("policies/explore.fsm");
 /// The mismatch of an array that is made with care and that nobody has calibrated.
 pub const PLAUSIBLE_MISMATCH: TextFile = text_file!("scenarios/mismatch/plausible.yaml");
 
-/// The differences of a real array, which the bench has unless it is told otherwise.
+/// The differences of a real array, which the bench has unless another is given.
 pub const REAL_MISMATCH: TextFile = text_file!("scenarios/mismatch/real.yaml");
 
 /// The mismatches that have a name.

@@ -254,6 +254,7 @@ fn a_use_is_completed_by_modules_and_by_the_names_of_the_file() {
         "object",
         "obstacle",
         "platform",
+        "posture",
         "retrieval",
         "search",
         "senses",

@@ -39,8 +39,11 @@ fn scene(name: &str, seed: Option<u64>) -> Scene {
 /// posture must not look like that.
 #[test]
 fn calibrated_arrays_trace_the_disk_in_both_worlds_and_the_box_in_mujoco() {
-    let source = Source::new("vibrissa.fsm", text("policies/vibrissa.fsm"));
+    // Planar whiskers cannot leave their plane.
+    let policy = text("policies/vibrissa.fsm").replace("ribbon    = false", "ribbon    = true");
+    let source = Source::new("vibrissa.fsm", policy);
     let program = Arc::new(compile(&gather(&source, &mut |path| Err(format!("{path} is not there")))).unwrap());
+    assert_eq!(program.parameters.iter().filter(|parameter| parameter.name == "ribbon").count(), 1);
     let worlds = WorldKind::ALL.into_iter().filter(|kind| cfg!(feature = "sim") || *kind == WorldKind::QuasiStatic);
     let trials: Vec<_> = worlds
         .flat_map(|world| ["disk", "box"].map(|name| (world, name)))

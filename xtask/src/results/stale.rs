@@ -61,7 +61,7 @@ pub(crate) fn check(root: &Path) -> Result<(), StaleError> {
     let mut lines: Vec<_> = stale.iter().map(Stale::line).collect();
     let [made, present] = readme(root)?;
     if made != present {
-        lines.push("README.md: its table is not that of docs/results/bench.md and docs/results/mismatch.md".to_owned());
+        lines.push("README.md: its table is not that of docs/results/bench.md and docs/results/real.md".to_owned());
     }
     let text = lines.iter().fold(String::new(), |text, line| text + "  " + line + "\n");
     if lines.is_empty() { Ok(()) } else { Err(StaleError::Stale(text)) }

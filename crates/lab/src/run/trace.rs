@@ -77,7 +77,7 @@ pub struct TickRecord {
     pub body: Pose,
     /// Index of the active state after the tick. `None` after a failure.
     pub state: Option<usize>,
-    /// The whiskers of the trace, in its order. A run has many ticks and few whiskers, so there is no room for more.
+    /// The whiskers of the trace, in its order. A run has many ticks and few whiskers, so there is no place for more.
     pub whiskers: Box<[WhiskerRecord]>,
     /// The command of the tick.
     pub command: Command,
