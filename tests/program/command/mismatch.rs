@@ -396,6 +396,11 @@ fn pages_have_the_figures_that_their_commands_print() {
         let array = ["--policy", &policy, "--mismatch", "scenarios/mismatch/plausible.yaml"];
         let plausible =
             cell("docs/results/mismatch.md", &format!("## Arrays under `{policy}`").replace("policies/", ""), 3);
-        assert_eq!(error(&array), plausible, "{policy}: run `cargo x results mismatch calibration pareto`");
+        // An outcome other than `completed` stands behind the error.
+        assert_eq!(
+            Some(error(&array).as_str()),
+            plausible.split(',').next(),
+            "{policy}: run `cargo x results mismatch calibration pareto`"
+        );
     }
 }
