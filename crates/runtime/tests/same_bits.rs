@@ -19,7 +19,7 @@ use vibrissa_runtime::signal::{Command, MAX_WHISKERS, Reading, Sample, TrueTip};
 const POLICIES: [(&str, &[u8], &str); 3] = [
     ("bang", include_bytes!("../fixtures/bang.machine"), "23daaacac727e554"),
     ("thesis", include_bytes!("../fixtures/thesis.machine"), "75f0c6f89469f1ec"),
-    ("vibrissa", include_bytes!("../fixtures/vibrissa.machine"), "cbde7a6fc6c403f2"),
+    ("vibrissa", include_bytes!("../fixtures/vibrissa.machine"), "ba1c78dbe3825898"),
 ];
 /// The contact estimators, and the numbers of their contacts.
 const ESTIMATORS: [(ContactEstimatorKind, &str); 6] = [
