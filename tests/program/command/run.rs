@@ -307,7 +307,7 @@ stop: {time: 400 s, loop_closed: {within: 5 mm, after: 5 s}}
         let output = vibrissa(&arguments);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         let (told, table) = (stderr(&output), stdout(&output));
-        assert!(told.contains("plus: ended: object_coverage is "), "{told}");
+        assert!(told.contains("plus: ended: object_coverage is 6"), "{told}");
         assert_eq!(told.matches("object_coverage").count(), 1, "told once: {told}");
         let text = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
         let result: Value = serde_json::from_str(&text("plus.json")).unwrap();

@@ -248,6 +248,24 @@ proptest! {
     }
 }
 
+/// A rig that states a larger noise than its contact threshold allows.
+#[test]
+fn the_stated_noise_raises_the_contact_threshold_from_the_first_tick() {
+    let mut rig = Rig::default();
+    rig.sensing.angle_noise = 2.0 * rig.sensing.contact_threshold;
+    let deviation = rig.sensing.angle_noise * LowPass::noise_gain(rig.sensing.filter_cutoff, rig.sensing.sample_rate);
+    let touches = |angle: f64| {
+        let mut perception = Perception::new(&rig, &[Some(0)], &[ContactEstimatorKind::OneChannel]).unwrap();
+        let mut whiskers = [Reading::default(); MAX_WHISKERS];
+        whiskers[0].base_angle = angle;
+        let body = Pose { position: Point2::origin(), heading: 0.0 };
+        perception.update(&vec![Sample { time: 0.0, body, whiskers }; 300]);
+        perception.is_touching(0)
+    };
+    assert!(4.0 * deviation > rig.sensing.contact_threshold);
+    assert!(!touches(4.0 * deviation) && touches(6.0 * deviation));
+}
+
 #[test]
 fn noise_comes_through_the_filter_as_much_as_is_said() {
     let mut random = ChaCha8Rng::seed_from_u64(1);

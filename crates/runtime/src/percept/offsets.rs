@@ -91,7 +91,7 @@ impl Offsets {
         if self.is_known { self.state[2 * whisker] * MICRO } else { 0.0 }
     }
 
-    /// Standard deviation (rad) of the error of [`Self::value`]. It grows while a whisker is in contact.
+    /// Standard deviation (rad) of the error of [`Self::value`]. An offset that is corrected is less and less known in contact.
     pub(super) fn deviation(&self, whisker: usize) -> f64 {
         let ignored = if self.is_known { 0.0 } else { self.state[2 * whisker] };
         math::hypot(ignored, math::max(self.covariance[2 * whisker][2 * whisker], 0.0).sqrt()) * MICRO
@@ -216,6 +216,27 @@ mod tests {
                     let (most, error) = (5.0 * deviation + TOLERATED / 2.0, offsets.value(0) - first - drift);
                     prop_assert!(error.abs() < most, "{time} s: {error}");
                 }
+            }
+        }
+
+        #[test]
+        fn in_contact_the_deviation_grows_and_covers_the_drift(
+            first in -8e-6..8e-6_f64, rate in -4e-7..4e-7_f64, values in normals(300),
+        ) {
+            let mut offsets = Offsets::new(1);
+            let drifted = |tick: usize| first + rate * PERIOD * f64::from(u32::try_from(tick).unwrap_or(0));
+            for (tick, value) in values.into_iter().enumerate() {
+                offsets.predict(PERIOD);
+                offsets.add(0, Some(free(drifted(tick) + 2e-7 * value, 0.0, 2e-7)));
+            }
+            for tick in 300..2100 {
+                let before = offsets.deviation(0);
+                offsets.predict(PERIOD);
+                offsets.add(0, None);
+                // Without a significant offset, 0 is used, and the drift may come nearer to it.
+                prop_assert!(offsets.value(0) == 0.0 || offsets.deviation(0) > before);
+                let error = offsets.value(0) - drifted(tick);
+                prop_assert!(error.abs() < 4.0 * offsets.deviation(0), "{error} rad, deviation {}", offsets.deviation(0));
             }
         }
 

@@ -173,4 +173,22 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn an_offset_that_is_less_and_less_known_moves_the_tip_by_as_much() {
+        let rig = Rig::default();
+        let whisker = &rig.whiskers[0];
+        let tip = TipTable::new(whisker).at(3e-4, 2.4).unwrap();
+        let mut bias = TipBias::new(&measured(whisker, Parameter::Offset.index(), 0.0), &rig.sensing).unwrap();
+        let deviation = |bias: &TipBias| bias.deviation(3e-4, 1.0, [2.4; 2], &tip);
+        // What the covariance of the calibration has is not counted twice.
+        bias.set_offset_deviation(ESTIMATED_OFFSET);
+        assert!(deviation(&bias) < 1e-12);
+        let unknown = 4e-6;
+        bias.set_offset_deviation(math::hypot(unknown, ESTIMATED_OFFSET));
+        let moved = tip_body(whisker, [unknown, 0.0], 3e-4, whisker.direction_body + 2.4)
+            - tip_body(whisker, [0.0; 2], 3e-4, whisker.direction_body + 2.4);
+        let expected = moved.dot(&unit(whisker.direction_body + 2.4)).abs();
+        assert!((deviation(&bias) - expected).abs() < 0.03 * expected, "{} {expected}", deviation(&bias));
+    }
 }
